@@ -101,14 +101,24 @@ class QGroundControl:
     def _message(self, number: int, name: str, which: int = 0) -> Step:
         """REQUEST_MESSAGE: the acknowledgement and the message come in any order."""
         for _ in range(COMMAND_TRIES):
-            self._send(mavlink.MAVLink_command_long_message(
-                SYSTEM, AUTOPILOT, REQUEST_MESSAGE, 0, number, which, 0, 0, 0, 0, 0))  # fmt: skip
+            self._send(
+                mavlink.MAVLink_command_long_message(
+                    SYSTEM, AUTOPILOT, REQUEST_MESSAGE, 0, number, which, 0, 0, 0, 0, 0
+                )
+            )
             seen: dict[str, Any] = {}
             while "ack" not in seen:
                 got = yield Wait(
-                    lambda m: kind_of(m) == number
-                    or (m.get_type() == "COMMAND_ACK" and m.command == REQUEST_MESSAGE
-                        and self._mine(m)), COMMAND_MS)  # fmt: skip
+                    lambda m: (
+                        kind_of(m) == number
+                        or (
+                            m.get_type() == "COMMAND_ACK"
+                            and m.command == REQUEST_MESSAGE
+                            and self._mine(m)
+                        )
+                    ),
+                    COMMAND_MS,
+                )
                 if got is None:
                     break
                 seen["message" if kind_of(got) == number else "ack"] = got
@@ -128,21 +138,32 @@ class QGroundControl:
 
     # Files
 
-    def _ask(self, opcode: int, session: int, offset: int, size: int, data: bytes = b"",
-             again: bool = False) -> None:  # fmt: skip
+    def _ask(
+        self,
+        opcode: int,
+        session: int,
+        offset: int,
+        size: int,
+        data: bytes = b"",
+        again: bool = False,
+    ) -> None:
         """Two more with each request, of which the second is the answer's; the same ones again."""
         if not again:
             self._sequence = (self._sequence + 2) & 0xFFFF
         request = (self._sequence - 1) & 0xFFFF
         head = struct.pack("<HBBBBBBI", request, session, opcode, size, 0, 0, 0, offset)
-        self._send(mavlink.MAVLink_file_transfer_protocol_message(
-            0, SYSTEM, AUTOPILOT, list((head + data).ljust(251, b"\0"))))  # fmt: skip
+        self._send(
+            mavlink.MAVLink_file_transfer_protocol_message(
+                0, SYSTEM, AUTOPILOT, list((head + data).ljust(251, b"\0"))
+            )
+        )
 
     def _answer(self, opcode: int) -> Step:
         """The next answer to such a request that is not older than what is expected."""
         while True:
-            got = yield Wait(lambda m: m.get_type() == "FILE_TRANSFER_PROTOCOL" and self._mine(m),
-                             FTP_MS)  # fmt: skip
+            got = yield Wait(
+                lambda m: m.get_type() == "FILE_TRANSFER_PROTOCOL" and self._mine(m), FTP_MS
+            )
             if got is None:
                 return None
             reply = Reply.of(bytes(got.payload))
@@ -171,8 +192,9 @@ class QGroundControl:
             self.met.late.append("reset")
         return bytes(whole) if good else None
 
-    def _burst(self, uri: str, session: int, whole: bytearray,
-               missing: list[tuple[int, int]]) -> Step:  # fmt: skip
+    def _burst(
+        self, uri: str, session: int, whole: bytearray, missing: list[tuple[int, int]]
+    ) -> Step:
         """Bursts until the end of the file; what is left out is noted."""
         at, tries = 0, 0
         self._ask(BURST, session, at, DATA)
@@ -202,8 +224,9 @@ class QGroundControl:
                 if reply.complete:
                     self._ask(BURST, session, at, DATA)
 
-    def _fill(self, uri: str, session: int, whole: bytearray,
-              missing: list[tuple[int, int]]) -> Step:  # fmt: skip
+    def _fill(
+        self, uri: str, session: int, whole: bytearray, missing: list[tuple[int, int]]
+    ) -> Step:
         """What the bursts left out, piece by piece."""
         for begin, size in missing:
             for at in range(begin, begin + size, DATA):
@@ -278,8 +301,12 @@ class QGroundControl:
         """How many items there are. All that is here has none."""
         for _ in range(PLAN_RETRIES + 2):
             self._send(mavlink.MAVLink_mission_request_list_message(SYSTEM, AUTOPILOT, kind))
-            got = yield Wait(lambda m: m.get_type() == "MISSION_COUNT" and self._mine(m)
-                             and m.mission_type == kind, PLAN_MS)  # fmt: skip
+            got = yield Wait(
+                lambda m: (
+                    m.get_type() == "MISSION_COUNT" and self._mine(m) and m.mission_type == kind
+                ),
+                PLAN_MS,
+            )
             if got is not None:
                 self.met.plans[name] = got.count
                 self._send(mavlink.MAVLink_mission_ack_message(SYSTEM, AUTOPILOT, 0, kind))
@@ -305,7 +332,8 @@ class Reply:
     def of(cls, payload: bytes) -> Reply:
         """From a payload."""
         sequence, session, opcode, size, request, complete, _, offset = struct.unpack(
-            "<HBBBBBBI", payload[:12])  # fmt: skip
+            "<HBBBBBBI", payload[:12]
+        )
         return cls(sequence, session, opcode, size, request, complete, offset, payload[12:])
 
 

@@ -98,8 +98,9 @@ class InHands(Turntable):
         return [strength * one + iron for one, iron in zip(seen, self.iron, strict=True)]
 
 
-def with_iron(copter: Copter, iron: tuple[float, float, float],
-              memory: Path | None) -> tuple[Rig, InHands]:  # fmt: skip
+def with_iron(
+    copter: Copter, iron: tuple[float, float, float], memory: Path | None
+) -> tuple[Rig, InHands]:
     """A copter that was powered up with iron aboard."""
     rig = Rig(copter, warm_ms=0, memory=memory)
     flight: Any = rig.flight
@@ -260,15 +261,21 @@ class Held:
         """There is no wind."""
 
 
-SIDES = {"down": (0.0, 0.0, -1.0), "up": (0.0, 0.0, 1.0), "left": (0.0, 1.0, 0.0),
-         "right": (0.0, -1.0, 0.0), "front": (-1.0, 0.0, 0.0), "back": (1.0, 0.0, 0.0)}  # fmt: skip
+SIDES = {
+    "down": (0.0, 0.0, -1.0),
+    "up": (0.0, 0.0, 1.0),
+    "left": (0.0, 1.0, 0.0),
+    "right": (0.0, -1.0, 0.0),
+    "front": (-1.0, 0.0, 0.0),
+    "back": (1.0, 0.0, 0.0),
+}
 OFFSET = np.array([[0.6, -0.4, 0.8], [-0.5, 0.7, 0.3], [0.2, 0.1, -0.9]])
 SCALE = np.array([[1.03, 0.98, 1.02], [0.97, 1.01, 1.04], [1.0, 1.02, 0.96]])
 
 
-def with_errors(copter: Copter, memory: Path | None,
-                angles: tuple[float, float, float] = (0.0, 0.0, 0.0),
-                ) -> tuple[Rig, Held]:  # fmt: skip
+def with_errors(
+    copter: Copter, memory: Path | None, angles: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> tuple[Rig, Held]:
     """A copter whose accelerometers have these offsets and scales, and nothing else is wrong."""
     rig = Rig(copter, warm_ms=0, memory=memory)
     flight: Any = rig.flight
@@ -290,8 +297,10 @@ def cal_texts(rig: Rig, begun: int) -> list[str]:
 
 def corrections(rig: Rig) -> tuple[Any, Any]:
     """Offsets and scales as the parameters are told."""
-    told = [[[value_in(rig, f"ACC{unit}_{what}_{axis}") for axis in "XYZ"] for unit in (1, 2, 3)]
-            for what in ("OFF", "SCALE")]  # fmt: skip
+    told = [
+        [[value_in(rig, f"ACC{unit}_{what}_{axis}") for axis in "XYZ"] for unit in (1, 2, 3)]
+        for what in ("OFF", "SCALE")
+    ]
     return np.array(told[0]), np.array(told[1])
 
 
@@ -315,9 +324,11 @@ def test_six_sides_are_offset_and_scale(copter: Copter, tmp_path: Path) -> None:
     rig.run(2000)
     expected = ["[cal] calibration started: 2 accel"]
     for number, side in enumerate(SIDES, 1):
-        expected += [f"[cal] {side} orientation detected",
-                     f"[cal] {side} side done, rotate to a different side"[:50],
-                     f"[cal] progress <{round(100 * number / 6)}>"]  # fmt: skip
+        expected += [
+            f"[cal] {side} orientation detected",
+            f"[cal] {side} side done, rotate to a different side"[:50],
+            f"[cal] progress <{round(100 * number / 6)}>",
+        ]
     assert cal_texts(rig, begun) == [*expected, "[cal] calibration done: accel"]
     offset, scale = corrections(rig)
     # A unit says scale * true + offset; noise of a mean of 40 is 0.006 m/s^2 at most.
@@ -342,7 +353,8 @@ def test_a_side_that_was_seen_is_not_seen_again(copter: Copter) -> None:
     six_sides(rig, held, ["down", "left", "down"])
     assert [text for text in cal_texts(rig, begun) if "side done" in text] == [
         "[cal] down side done, rotate to a different side",
-        "[cal] left side done, rotate to a different side"]  # fmt: skip
+        "[cal] left side done, rotate to a different side",
+    ]
     assert "calibration" in blocking(rig)
     assert rig.ask(PREFLIGHT_CALIBRATION) == ACCEPTED  # Ends it.
     rig.run(500)
@@ -416,7 +428,8 @@ def test_a_board_may_be_mounted_any_way(copter: Copter, tmp_path: Path) -> None:
     six_sides(again, held, ["right", "front"])
     assert [text for text in cal_texts(again, begun) if "side done" in text] == [
         "[cal] right side done, rotate to a different side",
-        "[cal] front side done, rotate to a different side"]  # fmt: skip
+        "[cal] front side done, rotate to a different side",
+    ]
 
 
 def test_armed_nothing_is_calibrated(copter: Copter) -> None:

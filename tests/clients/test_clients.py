@@ -89,8 +89,9 @@ class Station:
             self.link.mav.command_long_send(1, 1, command, attempt, *numbers)
             end = time.monotonic() + 3.0
             while time.monotonic() < end:
-                answer = self.link.recv_match(type=["COMMAND_ACK", "STATUSTEXT"], blocking=True,
-                                              timeout=1)  # fmt: skip
+                answer = self.link.recv_match(
+                    type=["COMMAND_ACK", "STATUSTEXT"], blocking=True, timeout=1
+                )
                 if answer is not None and answer.get_type() == "STATUSTEXT":
                     self.texts.append(answer.text)
                 elif answer is not None and answer.command == command:
@@ -104,6 +105,7 @@ class Station:
 
     def rest(self) -> None:
         """Whatever it does, it ends on the ground with its motors off."""
+
         def at_rest() -> bool:
             if not self.until("HEARTBEAT", lambda message: message.type == 2).base_mode & ARMED:
                 return True
@@ -118,20 +120,29 @@ class Station:
 
 
 @contextlib.contextmanager
-def powered_up(
-    ports: list[int], folder: Path, *options: str
-) -> Iterator[subprocess.Popen[bytes]]:
+def powered_up(ports: list[int], folder: Path, *options: str) -> Iterator[subprocess.Popen[bytes]]:
     """A copter with a link to each of these ports."""
     addresses = [part for port in ports for part in ("--address", f"127.0.0.1:{port}")]
     with (folder / "log").open("w") as out:
         sim = subprocess.Popen(
-            [sys.executable, str(TOOLS / "sim.py"), "--cold", "--build", str(folder), *addresses,
-             *options],
-            stdin=subprocess.PIPE, stdout=out, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+            [
+                sys.executable,
+                str(TOOLS / "sim.py"),
+                "--cold",
+                "--build",
+                str(folder),
+                *addresses,
+                *options,
+            ],
+            stdin=subprocess.PIPE,
+            stdout=out,
+            stderr=subprocess.STDOUT,
+        )
         try:
-            wait_for(lambda: "Ctrl-C" in (folder / "log").read_text() or sim.poll() is not None,
-                     "the copter's start")  # fmt: skip
+            wait_for(
+                lambda: "Ctrl-C" in (folder / "log").read_text() or sim.poll() is not None,
+                "the copter's start",
+            )
             yield sim
         finally:
             sim.send_signal(signal.SIGINT)
@@ -188,8 +199,11 @@ def test_pymavlink_lists_and_sets_parameters(station: Station) -> None:
     real = mavutil.mavlink.MAV_PARAM_TYPE_REAL32
     mav.param_set_send(1, 1, b"HEIGHT_P", 1.25, real)
     assert station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P").param_value == 1.25
-    for value, kind in ((1.0e9, real), (float("nan"), real),
-                        (5.0, mavutil.mavlink.MAV_PARAM_TYPE_INT32)):  # fmt: skip
+    for value, kind in (
+        (1.0e9, real),
+        (float("nan"), real),
+        (5.0, mavutil.mavlink.MAV_PARAM_TYPE_INT32),
+    ):
         mav.param_set_send(1, 1, b"HEIGHT_P", value, kind)
         same = station.until("PARAM_VALUE", lambda m: m.param_id == "HEIGHT_P")
         assert same.param_value == 1.25
@@ -255,16 +269,23 @@ class Shell:
             part = [ord(one) for one in text[start : start + 70]]
             self._link.mav.serial_control_send(
                 mav.SERIAL_CONTROL_DEV_SHELL,
-                mav.SERIAL_CONTROL_FLAG_EXCLUSIVE | mav.SERIAL_CONTROL_FLAG_RESPOND, 0, 0,
-                len(part), part + [0] * (70 - len(part)),
-            )  # fmt: skip
+                mav.SERIAL_CONTROL_FLAG_EXCLUSIVE | mav.SERIAL_CONTROL_FLAG_RESPOND,
+                0,
+                0,
+                len(part),
+                part + [0] * (70 - len(part)),
+            )
 
     def until(self, text: str) -> None:
         """Until it is there."""
+
         def there() -> bool:
-            found = self._link.recv_match(condition="SERIAL_CONTROL.count!=0",
-                                          type="SERIAL_CONTROL", blocking=True,
-                                          timeout=0.03)  # fmt: skip
+            found = self._link.recv_match(
+                condition="SERIAL_CONTROL.count!=0",
+                type="SERIAL_CONTROL",
+                blocking=True,
+                timeout=0.03,
+            )
             if found is not None:
                 self.text += "".join(chr(byte) for byte in found.data[: found.count])
             return text in self.text
@@ -273,8 +294,9 @@ class Shell:
 
     def close(self) -> None:
         """Ctrl-C."""
-        self._link.mav.serial_control_send(mavutil.mavlink.SERIAL_CONTROL_DEV_SHELL, 0, 0, 0, 0,
-                                           [0] * 70)  # fmt: skip
+        self._link.mav.serial_control_send(
+            mavutil.mavlink.SERIAL_CONTROL_DEV_SHELL, 0, 0, 0, 0, [0] * 70
+        )
 
 
 def test_pymavlink_has_a_shell(station: Station) -> None:
@@ -320,8 +342,10 @@ def mavsdk_sets_parameters(param: Any) -> None:
         param.set_param_float(name, before[name])
     with pytest.raises(ParamError) as refused:
         param.set_param_float("FS_RETURN", 0.5)
-    for wrong in (lambda: param.get_param_int("BAT_CELLS"),
-                  lambda: param.set_param_int("BAT_CELLS", 5)):  # fmt: skip
+    for wrong in (
+        lambda: param.get_param_int("BAT_CELLS"),
+        lambda: param.set_param_int("BAT_CELLS", 5),
+    ):
         with pytest.raises(ParamError) as refused:
             wrong()
         assert ParamResult.WRONG_TYPE.name in str(refused.value)
@@ -375,13 +399,17 @@ def mavproxy_keeps_parameters(station: Station, says: Callable[..., None], folde
     assert {name: float(value) for name, value in saved.items()} == pytest.approx(asked, abs=1e-6)
     says("param load before.parm", f"Loaded {count} parameters from before.parm")
     wait_for(lambda: values_seen(station) == before, "what it had before")
-    says("param set BAT_CELLS 4.5", "BAT_CELLS: not set, not a whole number",
-         "Failed to set BAT_CELLS to 4.5 (invalid returned value 4.0)")
+    says(
+        "param set BAT_CELLS 4.5",
+        "BAT_CELLS: not set, not a whole number",
+        "Failed to set BAT_CELLS to 4.5 (invalid returned value 4.0)",
+    )
     assert values_seen(station) == before
 
 
-def test_mavsdk_reads_files_and_empty_lists(station: Station, ports: list[int],
-                                            tmp_path: Path) -> None:  # fmt: skip
+def test_mavsdk_reads_files_and_empty_lists(
+    station: Station, ports: list[int], tmp_path: Path
+) -> None:
     from mavsdk.component_type import ComponentType
     from mavsdk.mavsdk import Configuration, Mavsdk
     from mavsdk.plugins.component_metadata import ComponentMetadata
@@ -405,8 +433,12 @@ def test_mavsdk_reads_files_and_empty_lists(station: Station, ports: list[int],
             folder = tmp_path / str(use_burst)
             folder.mkdir()
             ended: list[int] = []
-            files.download_async("/parameters.json", str(folder), use_burst,
-                                 lambda result, _progress, _data: ended.append(int(result)))
+            files.download_async(
+                "/parameters.json",
+                str(folder),
+                use_burst,
+                lambda result, _progress, _data: ended.append(int(result)),
+            )
             wait_for(lambda: any(one != FtpResult.NEXT for one in ended), "a file")
             assert ended[-1] == FtpResult.SUCCESS
             assert json.loads((folder / "parameters.json").read_text()) == PARAMETERS
@@ -423,8 +455,11 @@ def test_mavsdk_reads_files_and_empty_lists(station: Station, ports: list[int],
         plans = MissionRaw(system)
         begun = time.monotonic()
         plans.clear_mission()
-        for download in (plans.download_mission, plans.download_geofence,
-                         plans.download_rallypoints):  # fmt: skip
+        for download in (
+            plans.download_mission,
+            plans.download_geofence,
+            plans.download_rallypoints,
+        ):
             try:
                 assert download() == []
             except MissionRawError as error:
@@ -457,12 +492,22 @@ def test_mavproxy(station: Station, ports: list[int], tmp_path: Path) -> None:
     log = tmp_path / "log"
     with log.open("w") as out:
         proxy = subprocess.Popen(
-            [sys.executable, str(found), f"--master=udpin:127.0.0.1:{ports[2]}",
-             "--default-modules=param,arm,mode,ftp,wp,log,nsh", f"--state-basedir={tmp_path}"],
-            stdin=subprocess.PIPE, stdout=out, stderr=subprocess.STDOUT, cwd=tmp_path, text=True,
+            [
+                sys.executable,
+                str(found),
+                f"--master=udpin:127.0.0.1:{ports[2]}",
+                "--default-modules=param,arm,mode,ftp,wp,log,nsh",
+                f"--state-basedir={tmp_path}",
+            ],
+            stdin=subprocess.PIPE,
+            stdout=out,
+            stderr=subprocess.STDOUT,
+            cwd=tmp_path,
+            text=True,
             env={**os.environ, "HOME": str(tmp_path)},
-        )  # fmt: skip
+        )
         try:
+
             def says(line: str, *expected: str) -> None:
                 assert proxy.stdin is not None
                 proxy.stdin.write(line + "\n")
@@ -504,9 +549,10 @@ def test_what_is_typed_is_answered_in_the_terminal(tmp_path: Path) -> None:
     """And a pipe that ends, ends nothing else."""
     with powered_up(free_ports(1), tmp_path) as sim:
         assert sim.stdin is not None
-        for typed, expected in (("tasks", "\nTelemetry                   4000 "),
-                                ("nothing", "\nno such command: nothing; there are: help, tasks\n"),
-                                ):  # fmt: skip
+        for typed, expected in (
+            ("tasks", "\nTelemetry                   4000 "),
+            ("nothing", "\nno such command: nothing; there are: help, tasks\n"),
+        ):
             sim.stdin.write(f"{typed}\n".encode())
             sim.stdin.flush()
             wait_for(lambda: expected in (tmp_path / "log").read_text(), typed)

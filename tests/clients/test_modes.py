@@ -91,8 +91,14 @@ def test_no_name_of_another_program_is_one_of_keels_numbers() -> None:
 
 def test_px4s_names_mean_the_same() -> None:
     """As MAVSDK reads numbers of an autopilot that is neither."""
-    same = {"acro": "ACRO", "land": "LAND", "angle": "STABILIZED", "altitude": "ALTCTL",
-            "position": "POSCTL", "return": "RTL"}  # fmt: skip
+    same = {
+        "acro": "ACRO",
+        "land": "LAND",
+        "angle": "STABILIZED",
+        "altitude": "ALTCTL",
+        "position": "POSCTL",
+        "return": "RTL",
+    }
     for name, number in NUMBER.items():
         assert mavutil.interpret_px4_mode(0, number) == same[name]
     assert mavutil.interpret_px4_mode(0, NONE) == "UNKNOWN"
@@ -100,8 +106,14 @@ def test_px4s_names_mean_the_same() -> None:
 
 def test_the_table_for_pymavlink_has_names_that_mean_the_same() -> None:
     table = json.loads((ROOT / "examples/copter/custom_mode_map.json").read_text())
-    same = {"acro": "ACRO", "land": "LAND", "angle": "STABILIZE", "altitude": "ALT_HOLD",
-            "position": "POSHOLD", "return": "RTL"}  # fmt: skip
+    same = {
+        "acro": "ACRO",
+        "land": "LAND",
+        "angle": "STABILIZE",
+        "altitude": "ALT_HOLD",
+        "position": "POSHOLD",
+        "return": "RTL",
+    }
     quadrotor = str(mavlink.MAV_TYPE_QUADROTOR)
     assert table == {quadrotor: {str(NUMBER[mode]): name for mode, name in same.items()}}
 
@@ -125,7 +137,7 @@ PX4: dict[str, tuple[int, str, str]] = {
     "RTGS": (DENIED, "position", "mode: there is no such one"),
     "FOLLOWME": (DENIED, "position", "mode: there is no such one"),
     "TAKEOFF": (DENIED, "position", "mode: there is no such one"),
-}  # fmt: skip
+}
 
 
 def test_every_pair_of_px4s_has_its_row() -> None:
@@ -164,43 +176,108 @@ def test_hold_is_refused_while_the_pilot_flies(copter: Copter) -> None:
 # What each command does to a flight in mode altitude, and on the ground.
 COMMANDS: list[tuple[str, tuple[float, ...], int, str, int, str]] = [
     ("land", (LAND,), ACCEPTED, "land", REJECTED, "mode: not flying"),
-    ("land, no place", (LAND, 0, 0, 0, NAN, NAN, NAN, NAN), ACCEPTED, "land", REJECTED,
-     "mode: not flying"),
-    ("land there", (LAND, 0, 0, 0, 0, 47.4, 8.5), DENIED, "altitude", DENIED,
-     "mode: it lands where it is"),
+    (
+        "land, no place",
+        (LAND, 0, 0, 0, NAN, NAN, NAN, NAN),
+        ACCEPTED,
+        "land",
+        REJECTED,
+        "mode: not flying",
+    ),
+    (
+        "land there",
+        (LAND, 0, 0, 0, 0, 47.4, 8.5),
+        DENIED,
+        "altitude",
+        DENIED,
+        "mode: it lands where it is",
+    ),
     ("land on a beacon", (LAND, 0, 2), DENIED, "altitude", DENIED, "mode: it lands where it is"),
     ("return", (RETURN,), ACCEPTED, "return", REJECTED, "mode: not flying"),
     ("hold", (HOLD,), ACCEPTED, "position", REJECTED, "mode: hold: sticks not centred"),
-    ("hold there", (HOLD, 0, 0, 0, 0, 47.4, 8.5), DENIED, "altitude", DENIED,
-     "mode: it holds where it is"),
-    ("take off", (TAKE_OFF, 0, 0, 0, 0, 0, 0, 5), UNSUPPORTED, "altitude", UNSUPPORTED,
-     "take-off: only by the pilot's throttle"),
+    (
+        "hold there",
+        (HOLD, 0, 0, 0, 0, 47.4, 8.5),
+        DENIED,
+        "altitude",
+        DENIED,
+        "mode: it holds where it is",
+    ),
+    (
+        "take off",
+        (TAKE_OFF, 0, 0, 0, 0, 0, 0, 5),
+        UNSUPPORTED,
+        "altitude",
+        UNSUPPORTED,
+        "take-off: only by the pilot's throttle",
+    ),
     ("standard position", (STANDARD, 1), ACCEPTED, "position", ACCEPTED, ""),
     ("standard altitude", (STANDARD, 4), ACCEPTED, "altitude", ACCEPTED, ""),
     ("standard recovery", (STANDARD, 5), ACCEPTED, "return", REJECTED, "mode: not flying"),
     ("standard land", (STANDARD, 7), ACCEPTED, "land", REJECTED, "mode: not flying"),
-    *((f"standard {number}", (STANDARD, number), FAILED, "altitude", FAILED,
-       "mode: there is no such one") for number in (0, 2, 3, 6, 8, 9, 1.5, -1, NAN)),
+    *(
+        (
+            f"standard {number}",
+            (STANDARD, number),
+            FAILED,
+            "altitude",
+            FAILED,
+            "mode: there is no such one",
+        )
+        for number in (0, 2, 3, 6, 8, 9, 1.5, -1, NAN)
+    ),
     ("own land", (SET_MODE, 1, NUMBER["land"]), ACCEPTED, "land", REJECTED, "mode: not flying"),
-    ("own return", (SET_MODE, 1, NUMBER["return"]), ACCEPTED, "return", REJECTED,
-     "mode: not flying"),
+    (
+        "own return",
+        (SET_MODE, 1, NUMBER["return"]),
+        ACCEPTED,
+        "return",
+        REJECTED,
+        "mode: not flying",
+    ),
     ("own position", (SET_MODE, 1, NUMBER["position"]), ACCEPTED, "position", ACCEPTED, ""),
-    ("own acro", (SET_MODE, 1, NUMBER["acro"]), DENIED, "altitude", DENIED,
-     "mode: only by the pilot's switch"),
-    ("own angle", (SET_MODE, 1, NUMBER["angle"]), DENIED, "altitude", DENIED,
-     "mode: only by the pilot's switch"),
+    (
+        "own acro",
+        (SET_MODE, 1, NUMBER["acro"]),
+        DENIED,
+        "altitude",
+        DENIED,
+        "mode: only by the pilot's switch",
+    ),
+    (
+        "own angle",
+        (SET_MODE, 1, NUMBER["angle"]),
+        DENIED,
+        "altitude",
+        DENIED,
+        "mode: only by the pilot's switch",
+    ),
     ("no mode", (SET_MODE, 1, NONE), DENIED, "altitude", DENIED, "mode: there is no such one"),
-    ("half a mode", (SET_MODE, 1, NUMBER["position"] + 0.5), DENIED, "altitude", DENIED,
-     "mode: there is no such one"),
-    ("no custom mode", (SET_MODE, 220, NUMBER["position"]), DENIED, "altitude", DENIED,
-     "mode: only custom modes"),
+    (
+        "half a mode",
+        (SET_MODE, 1, NUMBER["position"] + 0.5),
+        DENIED,
+        "altitude",
+        DENIED,
+        "mode: there is no such one",
+    ),
+    (
+        "no custom mode",
+        (SET_MODE, 220, NUMBER["position"]),
+        DENIED,
+        "altitude",
+        DENIED,
+        "mode: only custom modes",
+    ),
     ("guided", (SET_MODE, 88), DENIED, "altitude", DENIED, "mode: only custom modes"),
-]  # fmt: skip
+]
 
 
-@pytest.mark.parametrize(("asked", "result", "mode"), [
-    (asked, result, mode) for _, asked, result, mode, _, _ in COMMANDS
-], ids=[row[0] for row in COMMANDS])  # fmt: skip
+@pytest.mark.parametrize(
+    ("asked", "result", "mode"),
+    [(asked, result, mode) for _, asked, result, mode, _, _ in COMMANDS],
+    ids=[row[0] for row in COMMANDS],
+)
 def test_commands_in_flight(
     copter: Copter, asked: tuple[float, ...], result: int, mode: str
 ) -> None:
@@ -254,8 +331,11 @@ def test_who_cannot_return_says_why(copter: Copter) -> None:
 
 def available(rig: Rig, begun: int) -> list[tuple[Any, ...]]:
     """AVAILABLE_MODES that came since."""
-    return [(one.mode_index, one.custom_mode, one.standard_mode, one.properties, one.mode_name)
-            for one in rig.seen[0][begun:] if one.get_type() == "AVAILABLE_MODES"]  # fmt: skip
+    return [
+        (one.mode_index, one.custom_mode, one.standard_mode, one.properties, one.mode_name)
+        for one in rig.seen[0][begun:]
+        if one.get_type() == "AVAILABLE_MODES"
+    ]
 
 
 def test_modes_are_listed(copter: Copter) -> None:

@@ -137,12 +137,20 @@ class Proxy:
     def __init__(self, port: int, home: Path) -> None:
         self._log = home / "log"
         self._process = subprocess.Popen(
-            [sys.executable, str(mavproxy_program()), f"--master=udpin:127.0.0.1:{port}",
-             "--default-modules=param,arm,mode,cmdlong,misc,fence,link",
-             f"--state-basedir={home}"],
-            stdin=subprocess.PIPE, stdout=self._log.open("w"), stderr=subprocess.STDOUT,
-            cwd=home, text=True, env={**os.environ, "HOME": str(home)},
-        )  # fmt: skip
+            [
+                sys.executable,
+                str(mavproxy_program()),
+                f"--master=udpin:127.0.0.1:{port}",
+                "--default-modules=param,arm,mode,cmdlong,misc,fence,link",
+                f"--state-basedir={home}",
+            ],
+            stdin=subprocess.PIPE,
+            stdout=self._log.open("w"),
+            stderr=subprocess.STDOUT,
+            cwd=home,
+            text=True,
+            env={**os.environ, "HOME": str(home)},
+        )
 
     def shown(self) -> str:
         """All that it has shown."""
@@ -213,16 +221,17 @@ def test_mavproxys_names(station: Station, proxy: Callable[[bool], Proxy]) -> No
 
 
 # With Keel's table: what a name is answered on the ground and in flight, and what is shown then.
-OWN = {"ACRO": ("DENIED", "DENIED", ""), "STABILIZE": ("DENIED", "DENIED", ""),
-       "ALT_HOLD": ("ACCEPTED", "ACCEPTED", "Mode ALT_HOLD"),
-       "POSHOLD": ("ACCEPTED", "ACCEPTED", "Mode POSHOLD"),
-       "RTL": ("TEMPORARILY_REJECTED", "ACCEPTED", "returning"),
-       "LAND": ("TEMPORARILY_REJECTED", "ACCEPTED", "Mode LAND")}  # fmt: skip
+OWN = {
+    "ACRO": ("DENIED", "DENIED", ""),
+    "STABILIZE": ("DENIED", "DENIED", ""),
+    "ALT_HOLD": ("ACCEPTED", "ACCEPTED", "Mode ALT_HOLD"),
+    "POSHOLD": ("ACCEPTED", "ACCEPTED", "Mode POSHOLD"),
+    "RTL": ("TEMPORARILY_REJECTED", "ACCEPTED", "returning"),
+    "LAND": ("TEMPORARILY_REJECTED", "ACCEPTED", "Mode LAND"),
+}
 
 
-def test_mavproxys_names_with_keels_table(
-    station: Station, proxy: Callable[[bool], Proxy]
-) -> None:
+def test_mavproxys_names_with_keels_table(station: Station, proxy: Callable[[bool], Proxy]) -> None:
     rest(station)
     at = proxy(True)
     assert set(listed(at.types("mode", "Available modes:"))) == set(OWN)
@@ -278,12 +287,18 @@ def test_mavsdks_actions(station: Station, ports: list[int]) -> None:
         said_since(station, begun, "returning")  # At home, where it lands.
         action.land()
         mode("LAND")
-        for number in (seen.position().relative_altitude_m, seen.heading().heading_deg,
-                       seen.velocity_ned().down_m_s, seen.battery().voltage_v,
-                       seen.attitude_euler().roll_deg, seen.attitude_quaternion().w,
-                       seen.altitude().altitude_relative_m,
-                       seen.fixedwing_metrics().climb_rate_m_s, seen.raw_gps().hdop,
-                       seen.position_velocity_ned().position.down_m):  # fmt: skip
+        for number in (
+            seen.position().relative_altitude_m,
+            seen.heading().heading_deg,
+            seen.velocity_ned().down_m_s,
+            seen.battery().voltage_v,
+            seen.attitude_euler().roll_deg,
+            seen.attitude_quaternion().w,
+            seen.altitude().altitude_relative_m,
+            seen.fixedwing_metrics().climb_rate_m_s,
+            seen.raw_gps().hdop,
+            seen.position_velocity_ned().position.down_m,
+        ):
             assert math.isfinite(number)
         rest(station)
         begun = station.see("ATTITUDE").time_boot_ms

@@ -53,8 +53,9 @@ def addressed(rig: Rig, text: str, system: int, component: int, count: int = -1)
     """The same with the two fields behind it that QGroundControl sends, and pymavlink does not."""
     message = typed(text)
     size = len(text) if count < 0 else count
-    payload = struct.pack("<IHBBB70sBB", 0, 0, SHELL, RESPOND | MULTI, size, text.encode(), system,
-                          component)  # fmt: skip
+    payload = struct.pack(
+        "<IHBBB70sBB", 0, 0, SHELL, RESPOND | MULTI, size, text.encode(), system, component
+    )
     return bytes(message._pack(rig.station, message.crc_extra, payload))
 
 
@@ -129,12 +130,22 @@ def test_bytes_that_are_no_characters_are_left_out(copter: Copter) -> None:
 def test_nothing_else_is_answered(copter: Copter) -> None:
     """Other devices, replies, questions whether there is more, and other aircraft."""
     rig = Rig(copter, warm_ms=500)
-    for message in (typed("help\n", device=OTHER_DEVICE), typed("help\n", REPLY | RESPOND),
-                    typed("", RESPOND | MULTI), typed("help\n", 0), typed("help\n", EXCLUSIVE),
-                    ):  # fmt: skip
+    for message in (
+        typed("help\n", device=OTHER_DEVICE),
+        typed("help\n", REPLY | RESPOND),
+        typed("", RESPOND | MULTI),
+        typed("help\n", 0),
+        typed("help\n", EXCLUSIVE),
+    ):
         assert answer(rig, message) == "", message
-    for system, component, meant in ((1, 1, True), (0, 0, True), (1, 0, True), (2, 1, False),
-                                     (1, 7, False), (2, 0, False)):  # fmt: skip
+    for system, component, meant in (
+        (1, 1, True),
+        (0, 0, True),
+        (1, 0, True),
+        (2, 1, False),
+        (1, 7, False),
+        (2, 0, False),
+    ):
         begun = len(rig.seen[0])
         rig.copter.send(0, addressed(rig, "help\n", system, component))
         rig.run(100)
@@ -196,18 +207,39 @@ def rows_of(text: str, at_ms: Callable[[int], int]) -> dict[str, Row]:
     lines = re.search(r"^up .*\n(task .*)\n((?:.+\n)+?)(?=keel> |\Z)", text, re.MULTILINE)
     assert lines, text
     late = [f"<{edge}" for edge in EDGES[1:]]
-    assert lines[1].split() == ["task", "period", "runs", "mean", "longest", "budget", "load", "%",
-                                *late, "more", "over", "prom", "skip"]  # fmt: skip
+    assert lines[1].split() == [
+        "task",
+        "period",
+        "runs",
+        "mean",
+        "longest",
+        "budget",
+        "load",
+        "%",
+        *late,
+        "more",
+        "over",
+        "prom",
+        "skip",
+    ]
     rows = {}
     begin = lines.start(2)
     for line in lines[2].splitlines(keepends=True):
         assert len(line) == len(lines[1]) + 1, line
         numbers = line[24:].split()
         rows[line[:24].rstrip()] = Row(
-            int(numbers[0]), int(numbers[1]), float(numbers[2]), int(numbers[3]), int(numbers[4]),
-            float(numbers[5]), tuple(int(one) for one in numbers[6:13]), int(numbers[13]),
-            int(numbers[14]), int(numbers[15]), at_ms(begin),
-        )  # fmt: skip
+            int(numbers[0]),
+            int(numbers[1]),
+            float(numbers[2]),
+            int(numbers[3]),
+            int(numbers[4]),
+            float(numbers[5]),
+            tuple(int(one) for one in numbers[6:13]),
+            int(numbers[13]),
+            int(numbers[14]),
+            int(numbers[15]),
+            at_ms(begin),
+        )
         begin += len(line)
     return rows
 
@@ -231,8 +263,12 @@ def table(rig: Rig, link: int = 0) -> dict[str, Row]:
 def troubled(rig: Rig) -> None:
     """Runs that take long, of real-time tasks and others; so some are late, promoted or skipped."""
     names = rig.copter.tasks
-    for name, count, extra_us in (("Background IMU", 3, 900), ("Navigation", 2, 6000),
-                                  ("GPS", 4, 1500), ("Angle rate control", 1, 4500)):  # fmt: skip
+    for name, count, extra_us in (
+        ("Background IMU", 3, 900),
+        ("Navigation", 2, 6000),
+        ("GPS", 4, 1500),
+        ("Angle rate control", 1, 4500),
+    ):
         number = names.index(name)
         rig.copter.overrun(number, count, extra_us)
         rig.run(2500)
@@ -242,15 +278,25 @@ def counted(own: Any, budget_us: int) -> tuple[int, tuple[int, ...], int, int, i
     """What the log's runs of a task come to."""
     late, lengths = own["start"] - own["release"], own["end"] - own["start"]
     found, _ = np.histogram(late, [*EDGES, np.inf])
-    return (len(own), tuple(int(one) for one in found), int((lengths > budget_us).sum()),
-            int(own["promoted"].sum()), int(own["skipped"].sum()))  # fmt: skip
+    return (
+        len(own),
+        tuple(int(one) for one in found),
+        int((lengths > budget_us).sum()),
+        int(own["promoted"].sum()),
+        int(own["skipped"].sum()),
+    )
 
 
 def grown(before: Row, behind: Row) -> tuple[int, tuple[int, ...], int, int, int]:
     """By how much a row has grown."""
     late = tuple(b - a for a, b in zip(before.late, behind.late, strict=True))
-    return (behind.runs - before.runs, late, behind.overruns - before.overruns,
-            behind.promotions - before.promotions, behind.skipped - before.skipped)  # fmt: skip
+    return (
+        behind.runs - before.runs,
+        late,
+        behind.overruns - before.overruns,
+        behind.promotions - before.promotions,
+        behind.skipped - before.skipped,
+    )
 
 
 def telemetry_at(schedule: runs.Schedule, ms: int) -> int:
@@ -292,8 +338,9 @@ def test_each_figure_is_what_the_log_of_the_same_flight_says(
         slack = 0.1 * (old.runs + new.runs)  # A mean is rounded down.
         assert abs(new.mean_us * new.runs - old.mean_us * old.runs - busy) <= slack, task.name
         assert new.load == pytest.approx(new.mean_us * new.runs / until * 100.0, abs=0.02)
-        total = [a + b for a, b in zip(total, (sum(new.late[4:]), *grown(old, new)[2:]),
-                                       strict=True)]  # fmt: skip
+        total = [
+            a + b for a, b in zip(total, (sum(new.late[4:]), *grown(old, new)[2:]), strict=True)
+        ]
     assert min(total) > 0, "nothing was late, too long, promoted or skipped: the test tests nothing"
 
 
@@ -353,6 +400,7 @@ def test_a_slow_link_carries_all_of_it(copter: Copter) -> None:
 
 def test_flights_are_the_same_with_it_and_without(copter: Copter) -> None:
     """It costs no time of another task's."""
+
     def flown(texts: Sequence[str]) -> bytes:
         rig = Rig(copter)
         for text in texts:

@@ -144,9 +144,9 @@ def test_it_connects_by_a_modem(copter: Copter) -> None:
     assert took_ms < 20_000
 
 
-@pytest.mark.parametrize(("lost", "most_s", "missing", "seed"), [
-    (0.05, 60, 0, 5), (0.3, 120, 3, 5)
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("lost", "most_s", "missing", "seed"), [(0.05, 60, 0, 5), (0.3, 120, 3, 5)]
+)
 def test_it_connects_over_a_bad_link(
     copter: Copter, lost: float, most_s: int, missing: int, seed: int
 ) -> None:
@@ -156,13 +156,19 @@ def test_it_connects_over_a_bad_link(
     met = meeting.station(0)
     meeting.until_done(1000 * most_s)
     assert met.late  # Something was lost.
-    assert not [error for error in met.errors
-                if "mftp" not in error and (not missing or "missing" not in error)]  # fmt: skip
+    assert not [
+        error
+        for error in met.errors
+        if "mftp" not in error and (not missing or "missing" not in error)
+    ]
     count = next(iter(met.parameters.values())).param_count
     assert len(met.parameters) >= count - missing
     assert met.plans == {"mission": 0, "fence": 0, "rally": 0}
-    told = Counter(message.param_index for message in meeting.rig.seen[0]
-                   if message.get_type() == "PARAM_VALUE")  # fmt: skip
+    told = Counter(
+        message.param_index
+        for message in meeting.rig.seen[0]
+        if message.get_type() == "PARAM_VALUE"
+    )
     assert meeting.asked and all(told[one] > times for one, times in meeting.asked.items())
 
 
@@ -197,24 +203,46 @@ def asked(rig: Rig, message: Any, *kinds: str, within_ms: int = AT_ONCE_MS) -> l
 def plans(kind: int, system: int = 1, component: int = 1) -> Iterable[tuple[Any, str, int]]:
     """Each message about missions, its answer, and the result in it."""
     item = (0, 0, 0, 0, 0)
-    yield (mavlink.MAVLink_mission_request_list_message(system, component, kind),
-           "MISSION_COUNT", 0)  # fmt: skip
-    yield (mavlink.MAVLink_mission_clear_all_message(system, component, kind),
-           "MISSION_ACK", ACCEPTED)  # fmt: skip
+    yield (
+        mavlink.MAVLink_mission_request_list_message(system, component, kind),
+        "MISSION_COUNT",
+        0,
+    )
+    yield (
+        mavlink.MAVLink_mission_clear_all_message(system, component, kind),
+        "MISSION_ACK",
+        ACCEPTED,
+    )
     for count, result in ((0, ACCEPTED), (3, UNSUPPORTED)):
-        yield (mavlink.MAVLink_mission_count_message(system, component, count, kind),
-               "MISSION_ACK", result)  # fmt: skip
-    for request in (mavlink.MAVLink_mission_request_message,
-                    mavlink.MAVLink_mission_request_int_message):  # fmt: skip
+        yield (
+            mavlink.MAVLink_mission_count_message(system, component, count, kind),
+            "MISSION_ACK",
+            result,
+        )
+    for request in (
+        mavlink.MAVLink_mission_request_message,
+        mavlink.MAVLink_mission_request_int_message,
+    ):
         yield request(system, component, 0, kind), "MISSION_ACK", INVALID_SEQUENCE
-    yield (mavlink.MAVLink_mission_request_partial_list_message(system, component, 0, 1, kind),
-           "MISSION_ACK", INVALID_SEQUENCE)  # fmt: skip
-    yield (mavlink.MAVLink_mission_write_partial_list_message(system, component, 0, 1, kind),
-           "MISSION_ACK", UNSUPPORTED)  # fmt: skip
-    for write, place in ((mavlink.MAVLink_mission_item_message, (47.0, 8.0, 5.0)),
-                         (mavlink.MAVLink_mission_item_int_message, (47, 8, 5.0))):  # fmt: skip
-        yield (write(system, component, 0, 3, 16, *item, 0, *place, kind), "MISSION_ACK",
-               UNSUPPORTED)  # fmt: skip
+    yield (
+        mavlink.MAVLink_mission_request_partial_list_message(system, component, 0, 1, kind),
+        "MISSION_ACK",
+        INVALID_SEQUENCE,
+    )
+    yield (
+        mavlink.MAVLink_mission_write_partial_list_message(system, component, 0, 1, kind),
+        "MISSION_ACK",
+        UNSUPPORTED,
+    )
+    for write, place in (
+        (mavlink.MAVLink_mission_item_message, (47.0, 8.0, 5.0)),
+        (mavlink.MAVLink_mission_item_int_message, (47, 8, 5.0)),
+    ):
+        yield (
+            write(system, component, 0, 3, 16, *item, 0, *place, kind),
+            "MISSION_ACK",
+            UNSUPPORTED,
+        )
 
 
 @pytest.mark.parametrize("kind", [MISSION, FENCE, RALLY])
@@ -262,19 +290,34 @@ def test_requests_in_a_row_are_all_answered(copter: Copter) -> None:
 def test_who_is_meant_answers_and_nobody_else(copter: Copter) -> None:
     """A system and a component that are 0 are all; others are others."""
     rig = Rig(copter, warm_ms=500)
-    for system, component, meant in ((1, 1, True), (EVERYBODY, EVERYBODY, True),
-                                     (1, EVERYBODY, True), (EVERYBODY, 1, True),
-                                     (OTHERS, 1, False), (1, OTHERS, False),
-                                     (OTHERS, EVERYBODY, False)):  # fmt: skip
+    for system, component, meant in (
+        (1, 1, True),
+        (EVERYBODY, EVERYBODY, True),
+        (1, EVERYBODY, True),
+        (EVERYBODY, 1, True),
+        (OTHERS, 1, False),
+        (1, OTHERS, False),
+        (OTHERS, EVERYBODY, False),
+    ):
         messages = [message for message, _, _ in plans(MISSION, system, component)]
-        messages += [mavlink.MAVLink_log_request_list_message(system, component, 0, 9),
-                     mavlink.MAVLink_log_request_data_message(system, component, 0, 0, 9),
-                     mavlink.MAVLink_log_erase_message(system, component),
-                     mavlink.MAVLink_mission_set_current_message(system, component, 0),
-                     file_message(Reset, system=system, component=component)]  # fmt: skip
+        messages += [
+            mavlink.MAVLink_log_request_list_message(system, component, 0, 9),
+            mavlink.MAVLink_log_request_data_message(system, component, 0, 0, 9),
+            mavlink.MAVLink_log_erase_message(system, component),
+            mavlink.MAVLink_mission_set_current_message(system, component, 0),
+            file_message(Reset, system=system, component=component),
+        ]
         for message in messages:
-            answers = asked(rig, message, "MISSION_COUNT", "MISSION_ACK", "LOG_ENTRY", "LOG_DATA",
-                            "STATUSTEXT", "FILE_TRANSFER_PROTOCOL")  # fmt: skip
+            answers = asked(
+                rig,
+                message,
+                "MISSION_COUNT",
+                "MISSION_ACK",
+                "LOG_ENTRY",
+                "LOG_DATA",
+                "STATUSTEXT",
+                "FILE_TRANSFER_PROTOCOL",
+            )
             # Nobody has asked whether the pilot's receiver is heard; that is told all the same.
             answers = [one for one in answers if "radio" not in getattr(one, "text", "")]
             assert len(answers) == int(meant), (system, component, message)
@@ -286,12 +329,20 @@ Nothing, Terminate, Reset, List, Open, Read, Crc, Burst = 0, 1, 2, 3, 4, 5, 14, 
 Ack, Nak = 128, 129
 INVALID_SIZE, INVALID_SESSION, EOF, UNKNOWN, PROTECTED, NOT_FOUND = 3, 4, 6, 7, 9, 10
 PARAMETERS_FILE = json.dumps(
-    json.loads((ROOT / "examples/copter/parameters.json").read_text("utf-8")),
-    separators=(",", ":")).encode()  # fmt: skip
+    json.loads((ROOT / "examples/copter/parameters.json").read_text("utf-8")), separators=(",", ":")
+).encode()
 
 
-def file_message(opcode: int, session: int = 0, offset: int = 0, size: int = 0, data: bytes = b"",
-                 sequence: int = 40, system: int = 1, component: int = 1) -> Any:  # fmt: skip
+def file_message(
+    opcode: int,
+    session: int = 0,
+    offset: int = 0,
+    size: int = 0,
+    data: bytes = b"",
+    sequence: int = 40,
+    system: int = 1,
+    component: int = 1,
+) -> Any:
     """A request of a file server."""
     head = struct.pack("<HBBBBBBI", sequence, session, opcode, size or len(data), 0, 0, 0, offset)
     payload = list((head + data).ljust(251, b"\0"))
@@ -355,8 +406,11 @@ def test_a_burst_ends_when_its_reader_asks_for_something_else(copter: Copter) ->
         (opened,) = files(rig, file_message(Open, data=b"/parameters.json"))
         some = files(rig, file_message(Burst, opened.session, 0, 60), within_ms=200)
         assert 3 < len(some) and not some[-1].complete
-        (done,) = [one for one in files(rig, file_message(opcode, opened.session), within_ms=500)
-                   if one.request == opcode]  # fmt: skip
+        (done,) = [
+            one
+            for one in files(rig, file_message(opcode, opened.session), within_ms=500)
+            if one.request == opcode
+        ]
         assert done.opcode == Ack
         rig.seen[0].clear()
         rig.run(1000)
@@ -368,8 +422,10 @@ def test_the_directory_and_sums(copter: Copter) -> None:
     for path in (b"/", b"", b"."):
         (listed,) = files(rig, file_message(List, data=path))
         entries = listed.data[: listed.size].split(b"\0")[:-1]
-        assert [entry.split(b"\t")[0] for entry in entries] == [b"Fgeneral.json",
-                                                                b"Fparameters.json"]  # fmt: skip
+        assert [entry.split(b"\t")[0] for entry in entries] == [
+            b"Fgeneral.json",
+            b"Fparameters.json",
+        ]
     assert entries[1].split(b"\t")[1] == str(len(PARAMETERS_FILE)).encode()
     (second,) = files(rig, file_message(List, offset=1, data=b"/"))
     assert second.data[: second.size] == entries[1] + b"\0"
@@ -442,6 +498,7 @@ def test_any_request_of_files_may_come(copter: Copter) -> None:
 
 # What is shown
 
+
 def test_what_instruments_show(copter: Copter) -> None:
     rig = Rig(copter)
     told = {message.get_type(): message for message in rig.seen[0]}
@@ -465,12 +522,18 @@ def told_time(rig: Rig) -> tuple[int, float]:
     return last.time_unix_usec / 1e6, last.time_boot_ms / 1e3
 
 
-@pytest.mark.parametrize("begun", [
-    datetime(2026, 11, 24, 12, tzinfo=UTC), datetime(2026, 12, 31, 23, 59, 57, tzinfo=UTC),
-    datetime(2028, 2, 28, 23, 59, 57, tzinfo=UTC), datetime(2028, 2, 29, 23, 59, 57, tzinfo=UTC),
-    datetime(2027, 2, 28, 23, 59, 57, 750_000, tzinfo=UTC),
-    datetime(2099, 12, 31, 23, 59, tzinfo=UTC), datetime(2017, 1, 1, tzinfo=UTC),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "begun",
+    [
+        datetime(2026, 11, 24, 12, tzinfo=UTC),
+        datetime(2026, 12, 31, 23, 59, 57, tzinfo=UTC),
+        datetime(2028, 2, 28, 23, 59, 57, tzinfo=UTC),
+        datetime(2028, 2, 29, 23, 59, 57, tzinfo=UTC),
+        datetime(2027, 2, 28, 23, 59, 57, 750_000, tzinfo=UTC),
+        datetime(2099, 12, 31, 23, 59, tzinfo=UTC),
+        datetime(2017, 1, 1, tzinfo=UTC),
+    ],
+)
 def test_the_date_is_the_receivers(copter: Copter, begun: datetime) -> None:
     """As Python's calendar has it; late by what the receiver takes."""
     with mock.patch.object(frames, "BEGUN", begun):
@@ -492,15 +555,19 @@ def test_the_log_has_the_date(copter: Copter, tmp_path: Path) -> None:
     assert 0.0 <= frames.BEGUN.timestamp() + boot - date < 0.35
 
 
-@pytest.mark.parametrize(("begun", "dated"), [
-    (frames.BEGUN, 0x03), (frames.BEGUN, 0x05), (frames.BEGUN, 0x06), (frames.BEGUN, 0),
-    (datetime(1980, 1, 6, tzinfo=UTC), 0x07), (datetime(2100, 1, 1, tzinfo=UTC), 0x07),
-])  # fmt: skip
-def test_a_date_that_is_not_sure_is_not_told(
-    copter: Copter, begun: datetime, dated: int
-) -> None:
-    with (mock.patch.object(frames, "BEGUN", begun),
-          mock.patch.object(frames, "DATED", dated)):  # fmt: skip
+@pytest.mark.parametrize(
+    ("begun", "dated"),
+    [
+        (frames.BEGUN, 0x03),
+        (frames.BEGUN, 0x05),
+        (frames.BEGUN, 0x06),
+        (frames.BEGUN, 0),
+        (datetime(1980, 1, 6, tzinfo=UTC), 0x07),
+        (datetime(2100, 1, 1, tzinfo=UTC), 0x07),
+    ],
+)
+def test_a_date_that_is_not_sure_is_not_told(copter: Copter, begun: datetime, dated: int) -> None:
+    with mock.patch.object(frames, "BEGUN", begun), mock.patch.object(frames, "DATED", dated):
         rig = Rig(copter, warm_ms=3000)
     assert told_time(rig)[0] == 0.0
 

@@ -39,11 +39,31 @@ MINUTE = 6_000_000  # In 10 us.
 REAL32 = mavlink.MAV_PARAM_TYPE_REAL32
 BURST = 512
 WARM_MS = 12_000
-SENT = {"HEARTBEAT", "SYS_STATUS", "GPS_RAW_INT", "ATTITUDE", "LOCAL_POSITION_NED",
-        "GLOBAL_POSITION_INT", "SERVO_OUTPUT_RAW", "RC_CHANNELS", "BATTERY_STATUS",
-        "ESTIMATOR_STATUS", "HOME_POSITION", "EXTENDED_SYS_STATE", "SCALED_IMU", "SCALED_IMU2",
-        "SCALED_IMU3", "NAMED_VALUE_INT", "SCALED_PRESSURE", "ATTITUDE_QUATERNION", "VFR_HUD",
-        "ALTITUDE", "SYSTEM_TIME", "CURRENT_MODE", "FENCE_STATUS"}  # fmt: skip
+SENT = {
+    "HEARTBEAT",
+    "SYS_STATUS",
+    "GPS_RAW_INT",
+    "ATTITUDE",
+    "LOCAL_POSITION_NED",
+    "GLOBAL_POSITION_INT",
+    "SERVO_OUTPUT_RAW",
+    "RC_CHANNELS",
+    "BATTERY_STATUS",
+    "ESTIMATOR_STATUS",
+    "HOME_POSITION",
+    "EXTENDED_SYS_STATE",
+    "SCALED_IMU",
+    "SCALED_IMU2",
+    "SCALED_IMU3",
+    "NAMED_VALUE_INT",
+    "SCALED_PRESSURE",
+    "ATTITUDE_QUATERNION",
+    "VFR_HUD",
+    "ALTITUDE",
+    "SYSTEM_TIME",
+    "CURRENT_MODE",
+    "FENCE_STATUS",
+}
 
 
 class Hands(Pilot):
@@ -59,9 +79,14 @@ class Hands(Pilot):
 class Rig:
     """A copter in a plant, with links."""
 
-    def __init__(self, copter: Copter, links: Sequence[Link] = (Link(),),
-                 warm_ms: int = WARM_MS, key: Key | None = None,
-                 memory: Path | None = None) -> None:  # fmt: skip
+    def __init__(
+        self,
+        copter: Copter,
+        links: Sequence[Link] = (Link(),),
+        warm_ms: int = WARM_MS,
+        key: Key | None = None,
+        memory: Path | None = None,
+    ) -> None:
         order = Order(scenario.read("hover"), "mujoco", 1)
         self.copter = copter
         self.channels = [1500, 1500, LOW, 1500, OFF, copter.mode_channel(POSITION), OFF, 1500]
@@ -121,8 +146,11 @@ class Rig:
 
     def named(self, link: int = 0) -> dict[str, int]:
         """The last value of each name."""
-        return {message.name: message.value for message in self.seen[link]
-                if message.get_type() == "NAMED_VALUE_INT"}  # fmt: skip
+        return {
+            message.name: message.value
+            for message in self.seen[link]
+            if message.get_type() == "NAMED_VALUE_INT"
+        }
 
     def counts(self, link: int = 0) -> Counter[str]:
         """How often each message came."""
@@ -212,9 +240,11 @@ def test_temperatures_and_supply_are_told(copter: Copter) -> None:
 
 def test_temperatures_and_supply_are_the_last_ones(copter: Copter) -> None:
     rig = Rig(copter)
-    with (mock.patch.object(sensors, "BAROMETER_WARMER", -3000),
-          mock.patch.object(sensors, "CHIP_TEMPERATURE", -512),
-          mock.patch.object(sensors, "SUPPLY_MV", 3011)):  # fmt: skip
+    with (
+        mock.patch.object(sensors, "BAROMETER_WARMER", -3000),
+        mock.patch.object(sensors, "CHIP_TEMPERATURE", -512),
+        mock.patch.object(sensors, "SUPPLY_MV", 3011),
+    ):
         rig.run(7000)
     by_kind = {message.get_type(): message for message in rig.seen[0]}
     assert abs(by_kind["SCALED_PRESSURE"].temperature - (1220 - 3000)) <= 1
@@ -224,8 +254,10 @@ def test_temperatures_and_supply_are_the_last_ones(copter: Copter) -> None:
 def test_what_is_not_measured_is_not_told(copter: Copter) -> None:
     """A barometer and a converter that fall silent; what else is told is told as before."""
     rig = Rig(copter)
-    with (mock.patch.object(rig.flight._slow, "_barometer"),
-          mock.patch.object(rig.flight._slow, "_chip")):  # fmt: skip
+    with (
+        mock.patch.object(rig.flight._slow, "_barometer"),
+        mock.patch.object(rig.flight._slow, "_chip"),
+    ):
         rig.run(2100)  # What was measured last is a second old, and telemetry has said so.
         rig.seen[0].clear()
         rig.run(11_000)
@@ -242,8 +274,9 @@ def test_named_values_have_a_fifth_of_a_hertz_each(copter: Copter) -> None:
     rig = Rig(copter)
     rig.seen[0].clear()
     rig.run(30_000)
-    names = Counter(message.name for message in rig.seen[0]
-                    if message.get_type() == "NAMED_VALUE_INT")  # fmt: skip
+    names = Counter(
+        message.name for message in rig.seen[0] if message.get_type() == "NAMED_VALUE_INT"
+    )
     assert set(names) == {"stack_free", "chip_mv", "chip_cdeg"}
     assert all(5 <= count <= 7 for count in names.values()), names
 
@@ -263,9 +296,19 @@ def test_rates_are_kept_and_frames_are_numbered(copter: Copter) -> None:
     before = rig.counts()
     rig.run(10_000)
     came = rig.counts() - before
-    expected = {"HEARTBEAT": 10, "ATTITUDE": 200, "LOCAL_POSITION_NED": 100, "RC_CHANNELS": 50,
-                "SCALED_PRESSURE": 5, "NAMED_VALUE_INT": 6, "ATTITUDE_QUATERNION": 100,
-                "VFR_HUD": 40, "ALTITUDE": 20, "SYSTEM_TIME": 10, "FENCE_STATUS": 5}  # fmt: skip
+    expected = {
+        "HEARTBEAT": 10,
+        "ATTITUDE": 200,
+        "LOCAL_POSITION_NED": 100,
+        "RC_CHANNELS": 50,
+        "SCALED_PRESSURE": 5,
+        "NAMED_VALUE_INT": 6,
+        "ATTITUDE_QUATERNION": 100,
+        "VFR_HUD": 40,
+        "ALTITUDE": 20,
+        "SYSTEM_TIME": 10,
+        "FENCE_STATUS": 5,
+    }
     for name, count in expected.items():
         assert 0.8 * count - 1 <= came[name] <= count + 1, (name, came[name])
     numbers = [message.get_seq() for message in rig.seen[0]]
@@ -295,8 +338,16 @@ def test_a_slow_link_carries_all_and_no_more_than_it_can(copter: Copter, rate: i
     counts = rig.counts()
     assert set(counts) >= SENT, SENT - set(counts)
     # Those that are wanted each second, from the start on.
-    turns = [counts[name] for name in ("HEARTBEAT", "SYS_STATUS", "BATTERY_STATUS",
-                                       "ESTIMATOR_STATUS", "EXTENDED_SYS_STATE")]  # fmt: skip
+    turns = [
+        counts[name]
+        for name in (
+            "HEARTBEAT",
+            "SYS_STATUS",
+            "BATTERY_STATUS",
+            "ESTIMATOR_STATUS",
+            "EXTENDED_SYS_STATE",
+        )
+    ]
     assert min(turns) >= (4 if rate < 600 else 16) and max(turns) <= min(turns) + 2, counts
     assert counts["SERVO_OUTPUT_RAW"] <= (30 if rate < 600 else 80)  # Of 150.
     assert rig.counts(1)["ATTITUDE"] > 300  # The other link does not notice.
@@ -315,8 +366,10 @@ def test_a_link_that_nobody_reads_holds_up_nothing(copter: Copter) -> None:
 def test_a_link_that_is_flooded_is_its_own_trouble(copter: Copter) -> None:
     rig = Rig(copter, [Link(), Link()], warm_ms=WARM_MS)
     before = rig.counts(1)
-    flood = b"".join(mavlink.MAVLink_param_set_message(1, 1, b"POS_P", float("nan"), 9)
-                     .pack(rig.station) for _ in range(90))  # fmt: skip
+    flood = b"".join(
+        mavlink.MAVLink_param_set_message(1, 1, b"POS_P", float("nan"), 9).pack(rig.station)
+        for _ in range(90)
+    )
     for _ in range(50):
         rig.copter.send(0, flood)
         rig.run(100)
@@ -371,23 +424,26 @@ def test_each_parameter_is_set_told_and_kept(copter: Copter, tmp_path: Path) -> 
     assert not errors_in(rig) and not errors_in(again)
 
 
-@pytest.mark.parametrize(("name", "value", "kind", "reason"), [
-    ("POS_P", float("nan"), REAL32, "not a number"),
-    ("POS_P", float("inf"), REAL32, "out of its range"),
-    ("POS_P", 1.0, 1, "its type is REAL32"),
-    ("POS_P", 1.0, 6, "its type is REAL32"),
-    ("VEL_P", 11.0, REAL32, "out of its range"),
-    ("BAT_CELLS", 4.5, REAL32, "not a whole number"),
-    ("BAT_CELLS", float("nan"), REAL32, "not a number"),
-    ("BAT_CELLS", 15.0, REAL32, "out of its range"),
-    ("BAT_CELLS", float("-inf"), REAL32, "out of its range"),
-    ("BAT_CELLS", 1e30, REAL32, "out of its range"),
-    ("BAT_CELLS", 2147483648.0, REAL32, "out of its range"),
-    ("BAT_CELLS", 6.0, 6, "its type is REAL32"),
-    ("FS_RETURN", 0.5, REAL32, "not a whole number"),
-    ("FS_RETURN", 2.0, REAL32, "out of its range"),
-    ("BAT_V_CRIT", 3.75, REAL32, "contradicts another"),  # The low voltage is 3.5.
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "value", "kind", "reason"),
+    [
+        ("POS_P", float("nan"), REAL32, "not a number"),
+        ("POS_P", float("inf"), REAL32, "out of its range"),
+        ("POS_P", 1.0, 1, "its type is REAL32"),
+        ("POS_P", 1.0, 6, "its type is REAL32"),
+        ("VEL_P", 11.0, REAL32, "out of its range"),
+        ("BAT_CELLS", 4.5, REAL32, "not a whole number"),
+        ("BAT_CELLS", float("nan"), REAL32, "not a number"),
+        ("BAT_CELLS", 15.0, REAL32, "out of its range"),
+        ("BAT_CELLS", float("-inf"), REAL32, "out of its range"),
+        ("BAT_CELLS", 1e30, REAL32, "out of its range"),
+        ("BAT_CELLS", 2147483648.0, REAL32, "out of its range"),
+        ("BAT_CELLS", 6.0, 6, "its type is REAL32"),
+        ("FS_RETURN", 0.5, REAL32, "not a whole number"),
+        ("FS_RETURN", 2.0, REAL32, "out of its range"),
+        ("BAT_V_CRIT", 3.75, REAL32, "contradicts another"),  # The low voltage is 3.5.
+    ],
+)
 def test_what_no_parameter_can_be_is_refused(
     copter: Copter, name: str, value: float, kind: int, reason: str
 ) -> None:
@@ -483,27 +539,32 @@ def test_what_waits_for_a_restart_is_told(copter: Copter, tmp_path: Path) -> Non
 
 def stored(*records: tuple[str, int, bytes]) -> bytes:
     """A memory whose first slot has a set, as slots.h and parameters.h lay it out."""
-    image = b"".join(name.encode().ljust(16, b"\0") + bytes([kind]) + bits
-                     for name, kind, bits in records)  # fmt: skip
+    image = b"".join(
+        name.encode().ljust(16, b"\0") + bytes([kind]) + bits for name, kind, bits in records
+    )
     head = struct.pack("<II", 1, len(image))
-    return b"\x4B" + head + image + struct.pack("<I", zlib.crc32(head + image))
+    return b"\x4b" + head + image + struct.pack("<I", zlib.crc32(head + image))
 
 
 def test_a_set_of_another_version_is_loaded_and_told(copter: Copter, tmp_path: Path) -> None:
-    (tmp_path / "memory").write_bytes(stored(
-        ("MOT_IDLE", 0, struct.pack("<f", 0.125)),
-        ("OF_ANOTHER", 0, struct.pack("<f", 1.0)),
-        ("BAT_CELLS", 0, struct.pack("<f", 6.0)),  # It was a float there,
-        ("POS_P", 0, struct.pack("<f", 99.0)),  # and this had another range.
-    ))  # fmt: skip
+    (tmp_path / "memory").write_bytes(
+        stored(
+            ("MOT_IDLE", 0, struct.pack("<f", 0.125)),
+            ("OF_ANOTHER", 0, struct.pack("<f", 1.0)),
+            ("BAT_CELLS", 0, struct.pack("<f", 6.0)),  # It was a float there,
+            ("POS_P", 0, struct.pack("<f", 99.0)),  # and this had another range.
+        )
+    )
     rig = Rig(copter, warm_ms=500, memory=tmp_path / "memory")
     assert [value_in(rig, name) for name in ("MOT_IDLE", "BAT_CELLS")] == [0.125, 4.0]
     assert abs(value_in(rig, "POS_P") - 0.8) < 1e-6
     rig.send(mavlink.MAVLink_param_request_list_message(1, 1))
     rig.run(2000)
-    assert rig.texts() == ["POS_P: the stored value is not taken",
-                           "BAT_CELLS: the stored value is not taken",
-                           "parameters: unknown ones are stored"]  # fmt: skip
+    assert rig.texts() == [
+        "POS_P: the stored value is not taken",
+        "BAT_CELLS: the stored value is not taken",
+        "parameters: unknown ones are stored",
+    ]
     assert set_to(rig, "BAT_CELLS", 6.0) == ["BAT_CELLS: in force after a restart"]
     set_to(rig, "POS_P", 0.75)
     rig.run(4000)
@@ -511,8 +572,11 @@ def test_a_set_of_another_version_is_loaded_and_told(copter: Copter, tmp_path: P
     again.send(mavlink.MAVLink_param_request_list_message(1, 1))
     again.run(2000)
     assert again.texts() == []
-    assert [value_in(again, name) for name in ("MOT_IDLE", "BAT_CELLS", "POS_P")] \
-        == [0.125, 6.0, 0.75]  # fmt: skip
+    assert [value_in(again, name) for name in ("MOT_IDLE", "BAT_CELLS", "POS_P")] == [
+        0.125,
+        6.0,
+        0.75,
+    ]
 
 
 def test_anything_may_come(copter: Copter) -> None:
@@ -525,21 +589,37 @@ def test_anything_may_come(copter: Copter) -> None:
         mavlink.MAVLink_param_request_read_message(1, 1, b"HEIGHT_PHEIGHT_P", -1),
         mavlink.MAVLink_param_request_read_message(1, 1, b"", -2),
         mavlink.MAVLink_set_mode_message(1, 1, 0xFFFFFFFF),
-    ]  # fmt: skip
+    ]
     for _ in range(400):
         data = bytearray(rng.choice(frames[2:]).pack(rig.station))
         if rng.random() < 0.7:
             data[rng.randrange(len(data))] ^= 1 << rng.randrange(8)
         rig.copter.send(0, bytes(rng.randbytes(rng.randrange(40))) + bytes(data))
         rig.run(7)
-    numbers = [float("nan"), float("inf"), -float("inf"), 1e30, -1e30, 0.5, -1.0, 1.0, 176.0, 4.0,
-               435.0, float(TO_POSITION), 4294967040.0]  # fmt: skip
+    numbers = [
+        float("nan"),
+        float("inf"),
+        -float("inf"),
+        1e30,
+        -1e30,
+        0.5,
+        -1.0,
+        1.0,
+        176.0,
+        4.0,
+        435.0,
+        float(TO_POSITION),
+        4294967040.0,
+    ]
     for _ in range(300):
         command = rng.choice([SET_MODE, INTERVAL, REQUEST, rng.randrange(65536)])
         if command == ARM:
             continue
-        rig.send(mavlink.MAVLink_command_long_message(
-            1, 1, command, 0, *(rng.choice(numbers) for _ in range(7))))  # fmt: skip
+        rig.send(
+            mavlink.MAVLink_command_long_message(
+                1, 1, command, 0, *(rng.choice(numbers) for _ in range(7))
+            )
+        )
         rig.run(11)
     assert rig.state() == DISARMED
     rig.run(3000)
@@ -587,10 +667,14 @@ def test_arming_takes_the_state_machines_time(copter: Copter) -> None:
     assert rig.state() == ARMED and rig.now_ms - begun >= 300
 
 
-@pytest.mark.parametrize(("channel", "value", "text"), [
-    (THROTTLE, 1500, "throttle not low"), (KILL, ON, "kill switch"),
-    (ARM_SWITCH, ON, "arm switch"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("channel", "value", "text"),
+    [
+        (THROTTLE, 1500, "throttle not low"),
+        (KILL, ON, "kill switch"),
+        (ARM_SWITCH, ON, "arm switch"),
+    ],
+)
 def test_what_stands_in_the_way_is_named(
     copter: Copter, channel: int, value: int, text: str
 ) -> None:
@@ -794,26 +878,31 @@ def test_signing_goes_on_over_a_restart(copter: Copter) -> None:
 
 
 def test_the_bystander_flies_when_others_arm(copter: Copter) -> None:
-    order = Order(scenario.read("hover").model_copy(update={"pilot": [], "mode": "position"}),
-                  "mujoco", 1)  # fmt: skip
+    order = Order(
+        scenario.read("hover").model_copy(update={"pilot": [], "mode": "position"}), "mujoco", 1
+    )
     flight = Flight(copter, order, Bystander, [Link()])
     station = mavlink.MAVLink(None, srcSystem=255)
     for now_ms in range(1, 26_000):
         flight.step(now_ms)
         copter.receive(0)
         if now_ms == WARM_MS:
-            copter.send(0, mavlink.MAVLink_command_long_message(
-                1, 1, ARM, 0, 1, *[0] * 6).pack(station))  # fmt: skip
+            copter.send(
+                0, mavlink.MAVLink_command_long_message(1, 1, ARM, 0, 1, *[0] * 6).pack(station)
+            )
     assert 3.5 < flight._plant.truth().place[2] < 6.5
 
 
-@pytest.mark.parametrize(("options", "reason"), [
-    (["--address", "here"], "here: expected host:port"),
-    (["--address", "127.0.0.1:99999"], "expected host:port"),
-    (["--rate", "0"], "--rate: expected 1 to"),
-    (["--key", "nowhere"], "nowhere: cannot be read"),
-    (["--scenario", "nothing"], "nothing"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        (["--address", "here"], "here: expected host:port"),
+        (["--address", "127.0.0.1:99999"], "expected host:port"),
+        (["--rate", "0"], "--rate: expected 1 to"),
+        (["--key", "nowhere"], "nowhere: cannot be read"),
+        (["--scenario", "nothing"], "nothing"),
+    ],
+)
 def test_what_cannot_be_flown_is_said(
     options: list[str], reason: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

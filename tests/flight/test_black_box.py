@@ -115,8 +115,10 @@ def pyfatfs() -> tuple[Any, Any]:
     sys.path.append(tools.command("card-packages")[0])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # Its own imports are of another time.
-        return (importlib.import_module("pyfatfs.PyFat").PyFat,
-                importlib.import_module("pyfatfs.PyFatFS").PyFatBytesIOFS)  # fmt: skip
+        return (
+            importlib.import_module("pyfatfs.PyFat").PyFat,
+            importlib.import_module("pyfatfs.PyFatFS").PyFatBytesIOFS,
+        )
 
 
 OTHERS = {
@@ -173,9 +175,12 @@ class Volume:
     def __post_init__(self) -> None:
         boot = bytes(self.image[self.base * SECTOR : self.base * SECTOR + SECTOR])
         (self.cluster, self.reserved, fats, self.entries, small) = struct.unpack_from(
-            "<BHBHH", boot, 13)  # fmt: skip
-        (short,), (large, long) = struct.unpack_from("<H", boot, 22), struct.unpack_from(
-            "<II", boot, 32)  # fmt: skip
+            "<BHBHH", boot, 13
+        )
+        (short,), (large, long) = (
+            struct.unpack_from("<H", boot, 22),
+            struct.unpack_from("<II", boot, 32),
+        )
         self.per_fat = short or long
         self.is_32 = self.entries == 0
         self.data = self.reserved + fats * self.per_fat + self.entries // 16
@@ -229,8 +234,11 @@ class Volume:
         """Each file: its name, its first cluster and its size; folders as "/NAME/"."""
         fat = self.fat()
         own = self.entries // 16
-        root = (self.data_of(self.chain(fat, self.root)) if self.is_32
-                else bytes(self.part(self.data - own, own)))  # fmt: skip
+        root = (
+            self.data_of(self.chain(fat, self.root))
+            if self.is_32
+            else bytes(self.part(self.data - own, own))
+        )
         folders = [("/", root)]
         while folders:
             at, raw = folders.pop()
@@ -288,10 +296,25 @@ def box(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     folder = tmp_path_factory.mktemp("box")
     (folder / "shim.c").write_text(SHIM)
     fatfs = Path(tools.command("fatfs")[0]) / "fatfs/source"
-    output_of([*tools.command("gcc"), "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT}/include",
-               f"-I{ROOT}/bsp", f"-I{ROOT}/bsp/fatfs", "-isystem", fatfs, folder / "shim.c",
-               *[ROOT / name for name in SOURCES], fatfs / "ff.c",
-               "-o", folder / "box.so"])  # fmt: skip
+    output_of(
+        [
+            *tools.command("gcc"),
+            "-std=c99",
+            "-O1",
+            "-shared",
+            "-fPIC",
+            f"-I{ROOT}/include",
+            f"-I{ROOT}/bsp",
+            f"-I{ROOT}/bsp/fatfs",
+            "-isystem",
+            fatfs,
+            folder / "shim.c",
+            *[ROOT / name for name in SOURCES],
+            fatfs / "ff.c",
+            "-o",
+            folder / "box.so",
+        ]
+    )
     loaded = ctypes.CDLL(str(folder / "box.so"))
     for name in ("room", "number", "writes", "place"):
         getattr(loaded, name).restype = ctypes.c_uint32
@@ -328,8 +351,14 @@ def definitions(log: bytes) -> list[int]:
     return ends
 
 
-def fly(box: ctypes.CDLL, image: bytes, log: bytes, allocation: int = 2 * MIB, burst: int = 4,
-        busy: int = 0) -> Record:  # fmt: skip
+def fly(
+    box: ctypes.CDLL,
+    image: bytes,
+    log: bytes,
+    allocation: int = 2 * MIB,
+    burst: int = 4,
+    busy: int = 0,
+) -> Record:
     """Hands a log over as the copter does, and closes the file."""
     assert box.begin(image, len(image) // SECTOR, allocation, burst, busy) == 0
     assert box.open_box(0) == 0
@@ -341,8 +370,11 @@ def fly(box: ctypes.CDLL, image: bytes, log: bytes, allocation: int = 2 * MIB, b
         now += STEP_US
         there = min(len(log), now * BYTES_PER_S // SECOND_US)
         for _ in range(8 if at < ends[-1] else 1):
-            end = (next(end for end in ends if end > at) if at < ends[-1]
-                   else min(there, at + CHUNK, at + box.room()))  # fmt: skip
+            end = (
+                next(end for end in ends if end > at)
+                if at < ends[-1]
+                else min(there, at + CHUNK, at + box.room())
+            )
             if at < end <= there and end - at <= box.room():
                 assert box.put(log[at:end], end - at) == 1
                 at = end
@@ -418,7 +450,7 @@ def check_all_cuts(
 
 def test_every_cut_of_a_short_log_by_pyfatfs(
     box: ctypes.CDLL, pyfatfs: tuple[Any, Any], log: bytes, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     record = fly(box, new_card(pyfatfs, "FAT16", 8 * MIB), log[: 2 * BYTES_PER_S])
     assert record.name == "/LOG00005.ULG" and len(record.writes) > 400
     check_all_cuts(record, pyfatfs, tmp_path, lambda *_: True)
@@ -428,13 +460,14 @@ def is_not_data(record: Record) -> Callable[[int, int], bool]:
     """Whether a write was of the root directory in flight; of those of tables, some before it and
     behind it."""
     data = Volume(record.image).data + 8
-    return lambda cut, sector: sector < data and (record.opened <= cut < record.closing
-                                                  or cut % 5 == 0)  # fmt: skip
+    return lambda cut, sector: (
+        sector < data and (record.opened <= cut < record.closing or cut % 5 == 0)
+    )
 
 
 def test_every_cut_of_a_flight(
     box: ctypes.CDLL, pyfatfs: tuple[Any, Any], log: bytes, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     """FAT32; pyfatfs reads behind each write of the directory."""
     record = fly(box, new_card(pyfatfs, "FAT32", 40 * MIB), log)
     assert record.late_us < SECOND_US
@@ -444,7 +477,7 @@ def test_every_cut_of_a_flight(
 @pytest.mark.parametrize(("burst", "busy"), [(1, 0), (16, 5), (2, 18)])
 def test_every_cut_with_other_cards(
     box: ctypes.CDLL, pyfatfs: tuple[Any, Any], log: bytes, tmp_path: Path, burst: int, busy: int
-) -> None:  # fmt: skip
+) -> None:
     """One sector in a step, or a card that is busy for 50 or 180 ms behind each write: so it takes
     fewer bytes."""
     stream = log if busy == 0 else log[: 2 * BYTES_PER_S]
@@ -455,7 +488,7 @@ def test_every_cut_with_other_cards(
 @pytest.mark.parametrize("kind", ["FAT16", "FAT32"])
 def test_the_next_start_cuts_what_was_left(
     box: ctypes.CDLL, pyfatfs: tuple[Any, Any], log: bytes, kind: str
-) -> None:  # fmt: skip
+) -> None:
     """A start behind a cut: the log of before stays, and gives back what it had in vain."""
     image = new_card(pyfatfs, kind, (8 if kind == "FAT16" else 40) * MIB)
     record = fly(box, image, log[: 2 * BYTES_PER_S])
@@ -489,7 +522,7 @@ def test_the_next_start_cuts_what_was_left(
 @pytest.mark.parametrize(("kind", "size"), [("FAT12", 4), ("FAT16", 8), ("FAT32", 40)])
 def test_a_card_with_a_partition(
     box: ctypes.CDLL, pyfatfs: tuple[Any, Any], log: bytes, kind: str, size: int
-) -> None:  # fmt: skip
+) -> None:
     """As cards are sold: a table, and the volume behind it."""
     first, volume = 2048, new_card(pyfatfs, kind, size * MIB)
     entry = struct.pack("<B3sB3sII", 0, bytes(3), 6, bytes(3), first, len(volume) // SECTOR)

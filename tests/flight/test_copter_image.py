@@ -112,9 +112,13 @@ def images(tools: Toolchain, sources: Path) -> Path:
 
 
 def run(
-    tools: Toolchain, root: Path, board: str, seconds: float, broken: str = "",
+    tools: Toolchain,
+    root: Path,
+    board: str,
+    seconds: float,
+    broken: str = "",
     card: SdCard | None = None,
-) -> Chip:  # fmt: skip
+) -> Chip:
     chip = chip_model.simulate(tools, root, board, seconds, [], broken, STEP_US, card=card)
     assert chip.resets == 0, chip.text
     return chip
@@ -123,8 +127,9 @@ def run(
 def reports(chip: Chip) -> list[dict[str, int]]:
     """The lines of each second."""
     lines = re.findall(r"^t (\d+) s (.*)\r$", chip.text, re.MULTILINE)
-    return [{key: int(value) for key, value in re.findall(r"(\w+) (\d+)", text)}
-            for _, text in lines]  # fmt: skip
+    return [
+        {key: int(value) for key, value in re.findall(r"(\w+) (\d+)", text)} for _, text in lines
+    ]
 
 
 @pytest.mark.parametrize("board", BOARDS)
@@ -149,10 +154,18 @@ def test_every_stack_has_room_and_itcm_no_dead_code(
     assert all(one["bound"] <= one["size"] for one in stacks.values())
     report = json.loads((images / f"build/firmware/{board}/report.json").read_text())
     assert report["regions"]["ITCM"]["used"] <= 16384 - 256
-    placed = {check["what"].rpartition(": ")[2]: check["region"] for check in report["checks"]
-              if not check["what"].startswith("load of")}  # fmt: skip
-    for name in ("keel_scheduler_step", "keel_voter_step", "keel_attitude_step", "keel_mixer_step",
-                 "keel_pid_step"):  # fmt: skip
+    placed = {
+        check["what"].rpartition(": ")[2]: check["region"]
+        for check in report["checks"]
+        if not check["what"].startswith("load of")
+    }
+    for name in (
+        "keel_scheduler_step",
+        "keel_voter_step",
+        "keel_attitude_step",
+        "keel_mixer_step",
+        "keel_pid_step",
+    ):
         assert placed[name] == "ITCM"
     places = [check for check in report["checks"] if "keel_invensense_read" in check["what"]]
     assert places
@@ -161,10 +174,16 @@ def test_every_stack_has_room_and_itcm_no_dead_code(
 
 def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, images: Path) -> None:
     chip = run(tools, images, "fmuv5", 2.6)
-    for line in ("Keel on fmuv5: copter", "imu 1 status 0", "imu 2 missing: no driver",
-                 "barometer status 0", "magnetometer missing: no driver",
-                 "receiver of the pilot missing: no driver", "parameters status 0",
-                 "card status 1"):  # fmt: skip
+    for line in (
+        "Keel on fmuv5: copter",
+        "imu 1 status 0",
+        "imu 2 missing: no driver",
+        "barometer status 0",
+        "magnetometer missing: no driver",
+        "receiver of the pilot missing: no driver",
+        "parameters status 0",
+        "card status 1",
+    ):
         assert f"{line}\r\n" in chip.text
     first, second = reports(chip)
     # A thousand samples a second, and fifty pressures: those of the data sheet's example.
@@ -178,9 +197,13 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
 
 @pytest.mark.parametrize(
     ("broken", "line"),
-    [("sensor", "imu 1 status 5"), ("other-sensor", "imu 1 status 6"),
-     ("barometer", "barometer status 5"), ("memory", "parameters status 5")],
-)  # fmt: skip
+    [
+        ("sensor", "imu 1 status 5"),
+        ("other-sensor", "imu 1 status 6"),
+        ("barometer", "barometer status 5"),
+        ("memory", "parameters status 5"),
+    ],
+)
 def test_what_is_broken_is_named_and_the_rest_runs(
     tools: Toolchain, images: Path, broken: str, line: str
 ) -> None:
@@ -194,16 +217,17 @@ def test_what_is_broken_is_named_and_the_rest_runs(
 
 def test_a_board_with_less_says_so(tools: Toolchain, images: Path) -> None:
     chip = run(tools, images, "nucleo_f767zi", 1.4)
-    for line in ("barometer missing: the board has none", "parameters missing: not kept in flash",
-                 "card missing: the board has no slot"):  # fmt: skip
+    for line in (
+        "barometer missing: the board has none",
+        "parameters missing: not kept in flash",
+        "card missing: the board has no slot",
+    ):
         assert f"{line}\r\n" in chip.text
     (report,) = reports(chip)
     assert report["imu"] >= 1000
 
 
-def test_the_log_is_on_the_card(
-    tools: Toolchain, images: Path, pyfatfs: tuple[Any, Any]
-) -> None:
+def test_the_log_is_on_the_card(tools: Toolchain, images: Path, pyfatfs: tuple[Any, Any]) -> None:
     """By another's file system and another's reader, though the power goes without a word."""
     card = SdCard(bytearray(new_card(pyfatfs, "FAT32", 150 * MIB)))
     chip = run(tools, images, "fmuv5", 4.0, card=card)
@@ -252,8 +276,11 @@ def check_turner(chip: Chip) -> None:
     assert (words[about], words[7 - about]) == ("1", "0")
     assert words[6] == "alone"
     for number, log in enumerate(chip.outputs.log):
-        pulses: list[State] = [Pulse(1000 + 50 * (0, 1, 5, 10, 20)[number + 1], 2500),
-                               Pulse(1050, 2500), LOW] if number < 4 else []  # fmt: skip
+        pulses: list[State] = (
+            [Pulse(1000 + 50 * (0, 1, 5, 10, 20)[number + 1], 2500), Pulse(1050, 2500), LOW]
+            if number < 4
+            else []
+        )
         if number == 0:
             del pulses[1]  # The same pulse goes on.
         assert [state for _, state in log] == ["floats", LOW, *pulses], number
@@ -274,10 +301,13 @@ MISTAKES = (
     ("examples/copter_on_board/board_port.c", "(unit != 0u)", "(unit > 1u)"),
     ("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, 2, 3)"),
     ("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, -2, -3)"),
-    ("bsp/stm32f767/target/chip.c", "return (axis < 0) ? -(float)sensor",
-     "return (axis < 0) ? (float)sensor"),
+    (
+        "bsp/stm32f767/target/chip.c",
+        "return (axis < 0) ? -(float)sensor",
+        "return (axis < 0) ? (float)sensor",
+    ),
     ("bsp/stm32f767/target/chip.c", "(9.80665f / 2048.0f)", "(9.80665f / 4096.0f)"),
-)  # fmt: skip
+)
 
 
 def test_mistakes_in_the_port_are_noticed(tools: Toolchain, sources: Path) -> None:

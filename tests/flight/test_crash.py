@@ -79,8 +79,11 @@ class Tipped:
 
     def truth(self) -> Truth:
         """As it was when it was hit, but standing."""
-        return self.plant.truth() if self.since_s < 0.0 else replace(
-            self.truth_before, speed=(0.0, 0.0, 0.0))  # fmt: skip
+        return (
+            self.plant.truth()
+            if self.since_s < 0.0
+            else replace(self.truth_before, speed=(0.0, 0.0, 0.0))
+        )
 
     def blow(self, north: float, east: float, down: float) -> None:
         """Nothing moves it any more."""
@@ -88,15 +91,13 @@ class Tipped:
             self.plant.blow(north, east, down)
 
 
-def flown(copter: Copter, folder: Path, monkeypatch: pytest.MonkeyPatch,
-          at_ms: int) -> loop.Trace:  # fmt: skip
+def flown(copter: Copter, folder: Path, monkeypatch: pytest.MonkeyPatch, at_ms: int) -> loop.Trace:
     """The flight of HOVERS, hit then."""
     (folder / "hovers.toml").write_text(HOVERS)
     make = plants.make
     monkeypatch.setattr(
-        plants, "make",
-        lambda name, airframe, heading: Tipped(make(name, airframe, heading), at_ms),
-    )  # fmt: skip
+        plants, "make", lambda name, airframe, heading: Tipped(make(name, airframe, heading), at_ms)
+    )
     order = Order(scenario.read("hovers", folder), "mujoco", 1)
     return loop.fly(copter, order)
 

@@ -65,8 +65,15 @@ def test_nothing_is_undefined_and_the_compiler_does_not_matter(
 
 
 def test_the_names_are_those_of_the_headers() -> None:
-    assert library.states() == ["disarmed", "armed", "flying", "holding", "returning", "landing",
-                                "terminated"]  # fmt: skip
+    assert library.states() == [
+        "disarmed",
+        "armed",
+        "flying",
+        "holding",
+        "returning",
+        "landing",
+        "terminated",
+    ]
     assert library.modes() == ["acro", "land", "angle", "altitude", "position", "return", "none"]
     assert library.checks_of(0x0101) == ["gyroscope", "motors"]
     assert library.facts_of(0x2001) == ["rc_linked", "battery_empty"]
@@ -113,9 +120,16 @@ def test_a_seed_is_one_flight_and_seeds_differ() -> None:
 
 def answer(seed: int, digest: str = "d") -> dict[str, Any]:
     """A worker's, as it is kept."""
-    return {"seed": seed, "digest": digest, "good": True, "name": f"seed {seed}",
-            "fault": "no fault", "plant": "jsbsim", "measured": {"sink_max": 0.5},
-            "limits": []}  # fmt: skip
+    return {
+        "seed": seed,
+        "digest": digest,
+        "good": True,
+        "name": f"seed {seed}",
+        "fault": "no fault",
+        "plant": "jsbsim",
+        "measured": {"sink_max": 0.5},
+        "limits": [],
+    }
 
 
 class Closed:
@@ -125,9 +139,7 @@ class Closed:
         """Nothing is open."""
 
 
-def test_what_was_flown_is_not_flown_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+def test_what_was_flown_is_not_flown_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[list[int]] = []
 
     def fake(_: Any, seeds: list[int]) -> Any:
@@ -173,9 +185,15 @@ def heed_ctrl_c() -> None:
 
 def test_an_interruption_ends_it_and_leaves_no_report(tmp_path: Path) -> None:
     words = [sys.executable, "tools/keel", "fly", "--build", str(tmp_path), "--no-pictures"]
-    with subprocess.Popen(words, cwd=library.ROOT, stdout=subprocess.PIPE, text=True,
-                          stderr=subprocess.STDOUT, start_new_session=True,
-                          preexec_fn=heed_ctrl_c) as child:  # fmt: skip
+    with subprocess.Popen(
+        words,
+        cwd=library.ROOT,
+        stdout=subprocess.PIPE,
+        text=True,
+        stderr=subprocess.STDOUT,
+        start_new_session=True,
+        preexec_fn=heed_ctrl_c,
+    ) as child:
         assert child.stdout is not None
         assert child.stdout.readline().startswith("[1/")
         os.killpg(child.pid, signal.SIGINT)  # As a terminal does: to all of them.

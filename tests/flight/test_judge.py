@@ -15,8 +15,14 @@ from keel.flight.loop import TRUTH, Trace
 from keel.flight.montecarlo import by_fault, ranks
 from keel.flight.scenario import Limits, Scenario
 
-VIEW = [("quaternion", "<f4", (4,)), ("asked_tilt", "<f4", (2,)), ("position", "<f4", (3,)),
-        ("state", "<u4"), ("mode", "<u4"), ("motors_on", "<u4")]  # fmt: skip
+VIEW = [
+    ("quaternion", "<f4", (4,)),
+    ("asked_tilt", "<f4", (2,)),
+    ("position", "<f4", (3,)),
+    ("state", "<u4"),
+    ("mode", "<u4"),
+    ("motors_on", "<u4"),
+]
 DONE = [("skipped", "<u4"), ("runs", "<u4")]
 ROWS = 100
 
@@ -140,7 +146,9 @@ def test_a_number_that_is_none_is_not_good() -> None:
 
 
 def test_percentiles_and_faults() -> None:
-    flights = [{"measured": {"sink_max": float(number)}, "fault": "imu_freeze" if number else
-                "no fault"} for number in range(101)]  # fmt: skip
+    flights = [
+        {"measured": {"sink_max": float(number)}, "fault": "imu_freeze" if number else "no fault"}
+        for number in range(101)
+    ]
     assert ranks(flights) == {"sink_max": {"p50": 50.0, "p90": 90.0, "p99": 99.0, "p100": 100.0}}
     assert list(by_fault(flights)) == ["no fault", "imu_freeze"]

@@ -67,24 +67,27 @@ def flown(copter: Copter, tmp_path_factory: pytest.TempPathFactory) -> tuple[Pat
 def tool(name: str, *arguments: str | Path) -> str:
     """What a tool of pyulog prints; it must not complain."""
     program = f"import sys; from pyulog.{name} import main; sys.argv[0] = '{name}'; main()"
-    done = subprocess.run([sys.executable, "-c", program, *map(str, arguments)],
-                          capture_output=True, text=True, timeout=120, check=False)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-c", program, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     assert not done.stderr
     assert "corrupt" not in done.stdout.lower() and "warning" not in done.stdout.lower()
     return done.stdout
 
 
-def test_a_log_changes_no_flight(
-    copter: Copter, flown: tuple[Path, Trace], tmp_path: Path
-) -> None:  # fmt: skip
+def test_a_log_changes_no_flight(copter: Copter, flown: tuple[Path, Trace], tmp_path: Path) -> None:
     assert not flown[1].problem and not flown[1].crash
     assert loop.fly(copter, order(tmp_path)).digest == flown[1].digest
 
 
 def test_equal_flights_have_equal_logs(
     copter: Copter, flown: tuple[Path, Trace], tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     loop.fly(copter, order(tmp_path), tmp_path / "again.ulg")
     assert (tmp_path / "again.ulg").read_bytes() == flown[0].read_bytes()
 
@@ -130,9 +133,11 @@ def test_it_says_what_the_flight_was(flown: tuple[Path, Trace]) -> None:
     rows_us = rows_us[rows_us < rows_us[-1] - 20000]
     count = len(rows_us)
     assert count > 1500
-    for topic, name, seen in (("estimate", "position", "position"),
-                              ("estimate", "velocity", "velocity"),
-                              ("health", "load_ppm", "load_ppm")):  # fmt: skip
+    for topic, name, seen in (
+        ("estimate", "position", "position"),
+        ("estimate", "velocity", "velocity"),
+        ("health", "load_ppm", "load_ppm"),
+    ):
         data = log.topic(topic)
         last = np.searchsorted(data["timestamp"], rows_us) - 1
         np.testing.assert_array_equal(data[name][last], trace.view[seen][:count])
@@ -186,9 +191,15 @@ def test_temperatures_and_supply_are_the_last_ones(copter: Copter, tmp_path: Pat
 def test_rates_are_as_stated(flown: tuple[Path, Trace]) -> None:
     log = ulog.read(flown[0])
     for (name, _), period_us in zip(
-        log.data, [2000] * 3 + [10000] * 3 + [50000, 20000, 20000] + [100000] * 3 + [20000, 100000]
-        + [1000000, 100000, 1000000], strict=True
-    ):  # fmt: skip
+        log.data,
+        [2000] * 3
+        + [10000] * 3
+        + [50000, 20000, 20000]
+        + [100000] * 3
+        + [20000, 100000]
+        + [1000000, 100000, 1000000],
+        strict=True,
+    ):
         data = log.data[name, 0]
         assert abs(np.median(np.diff(data["timestamp"].astype(int))) - period_us) <= 400, name
 
@@ -208,7 +219,8 @@ def test_each_run_in_a_log_changes_no_flight_and_is_taken_whole(
     told = tool("info", traced[0])
     assert "No Dropouts" in told
     assert {topic.name for topic in ULog(str(traced[0])).data_list} == (
-        {name for name, _ in ulog.read(flown[0]).data} - {"imu"} | {"run", "task"})  # fmt: skip
+        {name for name, _ in ulog.read(flown[0]).data} - {"imu"} | {"run", "task"}
+    )
 
 
 def test_runs_are_what_the_scheduler_counted(traced: tuple[Path, Trace]) -> None:
@@ -281,8 +293,10 @@ def shaken(copter: Copter, path: Path) -> None:
     copter.log(path)
     copter.start(100, plain_mean=False)
     for now_ms in range(1, 10001):
-        value = sum(size * math.sin(2.0 * math.pi * hertz * now_ms / 1000.0)
-                    for hertz, size in SHAKES.items())  # fmt: skip
+        value = sum(
+            size * math.sin(2.0 * math.pi * hertz * now_ms / 1000.0)
+            for hertz, size in SHAKES.items()
+        )
         lie(copter, now_ms, value)
         assert copter.run_until(1000 * now_ms) == 0
     copter.log(None)
@@ -295,8 +309,9 @@ def test_known_vibrations_are_found(copter: Copter, tmp_path: Path) -> None:
         factor = 1.0 if first == 0 else 0.1
         found = sorted(log_plots.together(log_plots.spectra(log, 0, first)).peaks(3))
         assert [hertz for hertz, _ in found] == pytest.approx(list(SHAKES), abs=0.5)
-        wanted = [factor * size * math.cos(math.pi * hertz / 1000.0)
-                  for hertz, size in SHAKES.items()]  # fmt: skip
+        wanted = [
+            factor * size * math.cos(math.pi * hertz / 1000.0) for hertz, size in SHAKES.items()
+        ]
         assert [size for _, size in found] == pytest.approx(wanted, rel=0.15)
         assert log_plots.together(log_plots.spectra(log, 2, first)).amplitude.max() < 1e-3
 
@@ -309,7 +324,7 @@ def test_a_sine_shows_with_its_amplitude() -> None:
 
 def test_make_log_draws_it(
     flown: tuple[Path, Trace], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:  # fmt: skip
+) -> None:
     picture = tmp_path / "log.svg"
     assert log_tool.main([str(flown[0]), "--picture", str(picture)]) == 0
     told = capsys.readouterr().out
@@ -320,7 +335,7 @@ def test_make_log_draws_it(
 
 def test_a_log_that_is_cut_off_is_read_up_to_there(
     flown: tuple[Path, Trace], tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     content = flown[0].read_bytes()
     whole = ulog.read(flown[0])
     for size in (len(content) - 1, len(content) // 2, len(content) // 3):
@@ -331,8 +346,9 @@ def test_a_log_that_is_cut_off_is_read_up_to_there(
         np.testing.assert_array_equal(data, whole.topic("imu")[: len(data)])
 
 
-@pytest.mark.parametrize("content", [b"", b"ULog", b"\x55\x4c\x6f\x67\x01\x12\x35\x01",
-                                     b"GIF89a" + bytes(100)])  # fmt: skip
+@pytest.mark.parametrize(
+    "content", [b"", b"ULog", b"\x55\x4c\x6f\x67\x01\x12\x35\x01", b"GIF89a" + bytes(100)]
+)
 def test_what_is_no_log_is_refused(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "no.ulg").write_bytes(content)
     with pytest.raises(ToolError, match="is no log in ULog"):

@@ -97,8 +97,10 @@ def test_a_tilt_to_the_right_goes_to_the_right(name: str) -> None:
 
 @BOTH
 def test_a_heavier_one_climbs_less(name: str) -> None:
-    light, heavy = (run(made(name, 0.0, Airframe(mass=mass)), [1.3 * HOVER] * 4, 1200).place[2]
-                    for mass in (0.9, 1.2))  # fmt: skip
+    light, heavy = (
+        run(made(name, 0.0, Airframe(mass=mass)), [1.3 * HOVER] * 4, 1200).place[2]
+        for mass in (0.9, 1.2)
+    )
     assert light > heavy + 0.2
 
 

@@ -53,9 +53,12 @@ def content(pyfatfs: tuple[Any, Any]) -> bytes:
 
 
 def run(
-    boards: tuple[Toolchain, Path], seconds: float, card: SdCard | None = None,
-    keys: list[tuple[int, str]] | None = None, board: str = "fmuv5",
-) -> Chip:  # fmt: skip
+    boards: tuple[Toolchain, Path],
+    seconds: float,
+    card: SdCard | None = None,
+    keys: list[tuple[int, str]] | None = None,
+    board: str = "fmuv5",
+) -> Chip:
     """The power is cut at the end."""
     return chip_model.simulate(*boards, board, seconds, keys or [], "", STEP_US, card=card)
 

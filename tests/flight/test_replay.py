@@ -45,18 +45,34 @@ end = { on_ground = false, motors_on = true }
 def rotation(axis: str, angle: float) -> Any:
     """A matrix, as a book has it."""
     c, s = math.cos(angle), math.sin(angle)
-    return np.array({
-        "x": [[1, 0, 0], [0, c, -s], [0, s, c]],
-        "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]],
-        "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]],
-    }[axis], float)  # fmt: skip
+    return np.array(
+        {
+            "x": [[1, 0, 0], [0, c, -s], [0, s, c]],
+            "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]],
+            "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]],
+        }[axis],
+        float,
+    )
 
 
 def quaternion(matrix: Any) -> Any:
     """Of a matrix of less than half a turn."""
     w = math.sqrt(1.0 + np.trace(matrix)) / 2.0
-    return np.array([w, *(np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0],
-                                    matrix[1, 0] - matrix[0, 1]]) / (4.0 * w))])  # fmt: skip
+    return np.array(
+        [
+            w,
+            *(
+                np.array(
+                    [
+                        matrix[2, 1] - matrix[1, 2],
+                        matrix[0, 2] - matrix[2, 0],
+                        matrix[1, 0] - matrix[0, 1],
+                    ]
+                )
+                / (4.0 * w)
+            ),
+        ]
+    )
 
 
 class Motion:
@@ -67,8 +83,9 @@ class Motion:
         noise = 1e-3  # In rad/s; ten times as much in m/s^2.
         self.time = np.arange(0.0, rest_s + MOVE_S, 1.0 / rate_hz)
         tiny = 1e-5
-        matrices = [[self._matrix(t - rest_s + shift) for shift in (-tiny, 0.0, tiny)]
-                    for t in self.time]  # fmt: skip
+        matrices = [
+            [self._matrix(t - rest_s + shift) for shift in (-tiny, 0.0, tiny)] for t in self.time
+        ]
         rng = np.random.default_rng(5)
         gyro, accel, mag, reference = [], [], [], []
         for before, here, after in matrices:
@@ -88,15 +105,20 @@ class Motion:
     def _matrix(t: float) -> Any:
         u = max(0.0, t)
         ease = u * u / (1.0 + u * u)
-        yaw, pitch, roll = (ease * size * math.sin(pace * u)
-                            for size, pace in ((0.6, 0.7), (0.4, 1.9), (0.5, 2.6)))  # fmt: skip
+        yaw, pitch, roll = (
+            ease * size * math.sin(pace * u) for size, pace in ((0.6, 0.7), (0.4, 1.9), (0.5, 2.6))
+        )
         return rotation("z", yaw) @ rotation("y", pitch) @ rotation("x", roll)
 
     def arrays(self) -> dict[str, Any]:
         """As an npz has it."""
-        return {"rate_hz": np.float64(self.rate_hz), "gyroscope": self.gyroscope,
-                "accelerometer": self.accelerometer, "magnetometer": self.magnetometer,
-                "reference": self.reference}  # fmt: skip
+        return {
+            "rate_hz": np.float64(self.rate_hz),
+            "gyroscope": self.gyroscope,
+            "accelerometer": self.accelerometer,
+            "magnetometer": self.magnetometer,
+            "reference": self.reference,
+        }
 
 
 @pytest.fixture(scope="module")
@@ -139,8 +161,14 @@ def saved(folder: Path, arrays: dict[str, Any], name: str = "motion.npz") -> Pat
     return folder / name
 
 
-def written(folder: Path, motion: Motion, units: int = 1, frozen: int = 0, from_s: float = 0.0,
-            change: Callable[[list[list[str]]], None] = lambda rows: None) -> Path:  # fmt: skip
+def written(
+    folder: Path,
+    motion: Motion,
+    units: int = 1,
+    frozen: int = 0,
+    from_s: float = 0.0,
+    change: Callable[[list[list[str]]], None] = lambda rows: None,
+) -> Path:
     """The same as CSV in Keel's frames, with a unit that repeats itself from some time on."""
     flat = np.array([1.0, -1.0, -1.0])
     rng = np.random.default_rng(9)
@@ -172,7 +200,7 @@ def keel_of(report: dict[str, Any]) -> dict[str, Any]:
 
 def test_what_was_measured_well_has_a_small_error(
     tool: Tool, motion: Motion, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:  # fmt: skip
+) -> None:
     status, report = tool(saved(tmp_path, motion.arrays()), "--compare")
     found = report["recordings"][0]
     assert status == 0 and found["judge"] == "reference" and not found["doubts"]
@@ -191,8 +219,9 @@ def test_any_rate_is_kept_in_time(copter: Copter, rate_hz: float) -> None:
     """An error of 2 ms alone would be 0.2 degrees at this motion's 1.7 rad/s."""
     motion = Motion(rate_hz, rest_s=3.0)
     flat = np.array([1.0, -1.0, -1.0])
-    unit = recording.Series(motion.time, np.hstack([motion.accelerometer * flat,
-                                                    motion.gyroscope * flat]))  # fmt: skip
+    unit = recording.Series(
+        motion.time, np.hstack([motion.accelerometer * flat, motion.gyroscope * flat])
+    )
     judge = recording.Series(motion.time, motion.reference * (1, 1, -1, -1))
     found = recording.with_lead_in(recording.Recording(Path("x"), [unit], reference=judge), 8.0)
     track = run.replayed(copter, found).since(0.0)
@@ -205,11 +234,13 @@ def test_any_rate_is_kept_in_time(copter: Copter, rate_hz: float) -> None:
 
 def test_a_planted_error_comes_out_as_what_it_is(
     tool: Tool, motion: Motion, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     """The reference is turned, so the estimate is off by as much: 10 degrees about a level axis are
     inclination, about the vertical heading. The field is given: its first second would hide it."""
-    for axis, kind, other in (("x", "inclination_deg", "heading_deg"),
-                              ("z", "heading_deg", "inclination_deg")):  # fmt: skip
+    for axis, kind, other in (
+        ("x", "inclination_deg", "heading_deg"),
+        ("z", "heading_deg", "inclination_deg"),
+    ):
         arrays = motion.arrays()
         extra = quaternion(rotation(axis, math.radians(10.0)))
         arrays["reference"] = turns.times(extra, arrays["reference"])
@@ -221,7 +252,7 @@ def test_a_planted_error_comes_out_as_what_it_is(
 @pytest.mark.parametrize("factor", [10.0, 1e-4])
 def test_a_magnetometer_in_another_unit_is_refused(
     tool: Tool, motion: Motion, tmp_path: Path, factor: float, capsys: pytest.CaptureFixture[str]
-) -> None:  # fmt: skip
+) -> None:
     arrays = {**motion.arrays(), "magnetometer": factor * motion.magnetometer}
     assert tool(saved(tmp_path, arrays), "--no-pictures")[0] == 2
     assert "is the magnetometer in uT?" in capsys.readouterr().err
@@ -230,7 +261,7 @@ def test_a_magnetometer_in_another_unit_is_refused(
 @pytest.mark.parametrize("option", ["--limit-degrees", "--lead-in", "--jobs"])
 def test_an_option_that_cannot_be_is_refused(
     tool: Tool, motion: Motion, tmp_path: Path, option: str, capsys: pytest.CaptureFixture[str]
-) -> None:  # fmt: skip
+) -> None:
     path = saved(tmp_path, motion.arrays())
     assert tool(path, option, "-1") == (2, {})
     assert f"replay: {option}: expected" in capsys.readouterr().err
@@ -240,8 +271,9 @@ def test_moving_and_unseen_parts_are_told_apart(tool: Tool, motion: Motion, tmp_
     arrays = motion.arrays()
     late = motion.time > REST_S + 5.0
     extra = quaternion(rotation("x", math.radians(10.0)))
-    arrays["reference"] = np.where(late[:, None], turns.times(extra, arrays["reference"]),
-                                   arrays["reference"])  # fmt: skip
+    arrays["reference"] = np.where(
+        late[:, None], turns.times(extra, arrays["reference"]), arrays["reference"]
+    )
     arrays["moving"] = late
     arrays["reference"][(motion.time > 12.0) & (motion.time < 13.0)] = math.nan
     _, report = tool(saved(tmp_path, arrays), "--no-pictures")
@@ -263,7 +295,7 @@ def test_the_limit_is_the_exit_status(tool: Tool, motion: Motion, tmp_path: Path
 
 def test_without_a_reference_a_limit_does_not_hold(
     tool: Tool, motion: Motion, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     arrays = motion.arrays()
     del arrays["reference"]
     assert tool(saved(tmp_path, arrays), "--limit-degrees", 90)[0] == 1
@@ -289,16 +321,19 @@ def in_g(arrays: dict[str, Any]) -> None:
     arrays["accelerometer"] = arrays["accelerometer"] / GRAVITY
 
 
-@pytest.mark.parametrize(("change", "words"), [
-    (changed_gyroscope, "gyroscope and reference do not turn alike"),
-    (changed_magnetometer, "gyroscope and magnetometer do not turn alike"),
-    (changed_accelerometer, "the accelerometer is 90 degrees off"),
-    (in_degrees, "gyroscope and reference do not turn alike"),
-    (in_g, "expected 9.8: another unit of measurement?"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (changed_gyroscope, "gyroscope and reference do not turn alike"),
+        (changed_magnetometer, "gyroscope and magnetometer do not turn alike"),
+        (changed_accelerometer, "the accelerometer is 90 degrees off"),
+        (in_degrees, "gyroscope and reference do not turn alike"),
+        (in_g, "expected 9.8: another unit of measurement?"),
+    ],
+)
 def test_other_axes_and_units_are_noticed(
     motion: Motion, tmp_path: Path, change: Callable[[dict[str, Any]], None], words: str
-) -> None:  # fmt: skip
+) -> None:
     arrays = motion.arrays()
     change(arrays)
     told = figures.doubts(readers.read(saved(tmp_path, arrays)))
@@ -307,16 +342,18 @@ def test_other_axes_and_units_are_noticed(
 
 def test_csv_and_npz_of_one_motion_have_one_result(
     tool: Tool, motion: Motion, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     _, first = tool(saved(tmp_path, motion.arrays()), "--no-pictures")
     _, second = tool(written(tmp_path, motion), "--no-pictures")
     for kind in ("inclination_deg", "heading_deg"):
         assert keel_of(first)[kind]["all"]["rms"] == pytest.approx(
-            keel_of(second)[kind]["all"]["rms"], abs=0.02)  # fmt: skip
+            keel_of(second)[kind]["all"]["rms"], abs=0.02
+        )
 
 
-def test_a_frozen_unit_is_told(tool: Tool, motion: Motion, tmp_path: Path,
-                               capsys: pytest.CaptureFixture[str]) -> None:  # fmt: skip
+def test_a_frozen_unit_is_told(
+    tool: Tool, motion: Motion, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = written(tmp_path, motion, units=3, frozen=2, from_s=REST_S + 2.0)
     status, report = tool(path, "--no-pictures")
     found = report["recordings"][0]["votes"]
@@ -328,9 +365,7 @@ def test_a_frozen_unit_is_told(tool: Tool, motion: Motion, tmp_path: Path,
     assert keel_of(report)["inclination_deg"]["moving"]["rms"] < 1.0
 
 
-def test_beside_two_units_the_third_is_silent(
-    tool: Tool, motion: Motion, tmp_path: Path
-) -> None:  # fmt: skip
+def test_beside_two_units_the_third_is_silent(tool: Tool, motion: Motion, tmp_path: Path) -> None:
     _, report = tool(written(tmp_path, motion, units=2), "--no-pictures")
     votes = report["recordings"][0]["votes"]
     assert votes["counted"][2] == [0.0, 0.0] and votes["states"]["gyroscope"]["mean"] > 0.99
@@ -339,7 +374,7 @@ def test_beside_two_units_the_third_is_silent(
 
 def test_the_distance_to_the_mean_of_all_is_as_computed(
     tool: Tool, motion: Motion, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     """Unit 4 measures 1.1 times the rate: the mean of all is 1.025 of what the three others say."""
     rows = np.hstack([motion.time[:, None], motion.accelerometer, np.degrees(motion.gyroscope)])
     fast = rows.copy()
@@ -367,7 +402,7 @@ def test_units_that_stand_askew_are_aligned(motion: Motion, tmp_path: Path) -> N
 
 def test_a_copters_log_gives_what_it_estimated_in_flight(
     tool: Tool, copter: Copter, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     (tmp_path / "short.toml").write_text(SHORT)
     order = Order(scenario.read("short", tmp_path), "mujoco", 1)
     assert not loop.fly(copter, order, tmp_path / "short.ulg").problem
@@ -387,13 +422,17 @@ def message(kind: str, body: bytes) -> bytes:
 
 def px4(path: Path, motion: Motion, topics: tuple[str, ...]) -> Path:
     """A log as PX4 writes it, with these topics."""
-    formats = {"sensor_combined": "float[3] gyro_rad;float[3] accelerometer_m_s2;",
-               "vehicle_magnetometer": "float[3] magnetometer_ga;",
-               "vehicle_attitude": "float[4] q;"}  # fmt: skip
+    formats = {
+        "sensor_combined": "float[3] gyro_rad;float[3] accelerometer_m_s2;",
+        "vehicle_magnetometer": "float[3] magnetometer_ga;",
+        "vehicle_attitude": "float[4] q;",
+    }
     flat = np.array([1.0, -1.0, -1.0])
-    rows = {"sensor_combined": np.hstack([motion.gyroscope * flat, motion.accelerometer * flat]),
-            "vehicle_magnetometer": motion.magnetometer * flat / 100.0,
-            "vehicle_attitude": motion.reference * (1, 1, -1, -1)}  # fmt: skip
+    rows = {
+        "sensor_combined": np.hstack([motion.gyroscope * flat, motion.accelerometer * flat]),
+        "vehicle_magnetometer": motion.magnetometer * flat / 100.0,
+        "vehicle_attitude": motion.reference * (1, 1, -1, -1),
+    }
     content = bytes.fromhex("554c6f6701123501") + struct.pack("<Q", 0)
     for name in topics:
         content += message("F", f"{name}:uint64_t timestamp;{formats[name]}".encode())
@@ -412,7 +451,7 @@ ALL = ("sensor_combined", "vehicle_magnetometer", "vehicle_attitude")
 
 def test_a_log_of_px4_is_replayed_beside_its_estimate(
     tool: Tool, motion: Motion, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     status, report = tool(px4(tmp_path / "flight.ulg", motion, ALL))
     found = report["recordings"][0]
     assert status == 0 and found["judge"] == "recorder" and not found["doubts"]
@@ -429,10 +468,11 @@ def test_a_log_that_was_cut_off_says_so(tool: Tool, motion: Motion, tmp_path: Pa
 
 def test_a_start_in_motion_gets_rest_in_its_attitude(
     tool: Tool, motion: Motion, tmp_path: Path
-) -> None:  # fmt: skip
+) -> None:
     begin = int(RATE_HZ * (REST_S + 3.0))
-    arrays = {name: array[begin:] if np.ndim(array) else array
-              for name, array in motion.arrays().items()}  # fmt: skip
+    arrays = {
+        name: array[begin:] if np.ndim(array) else array for name, array in motion.arrays().items()
+    }
     _, report = tool(saved(tmp_path, arrays), "--no-pictures")
     assert any("rest are made up" in note for note in report["recordings"][0]["notes"])
     assert keel_of(report)["inclination_deg"]["all"]["rms"] < 2.0
@@ -484,9 +524,11 @@ def test_a_damaged_file_is_refused_or_read(tmp_path: Path) -> None:
     rng = random.Random(2)
     short = Motion(50.0)
     rows = np.hstack([short.time[:, None], short.accelerometer, short.gyroscope])
-    whole = {".npz": saved(tmp_path, {"unit_1": rows, "unit_2": rows}).read_bytes(),
-             ".csv": written(tmp_path, short).read_bytes(),
-             ".ulg": px4(tmp_path / "flight.ulg", short, ALL).read_bytes()}  # fmt: skip
+    whole = {
+        ".npz": saved(tmp_path, {"unit_1": rows, "unit_2": rows}).read_bytes(),
+        ".csv": written(tmp_path, short).read_bytes(),
+        ".ulg": px4(tmp_path / "flight.ulg", short, ALL).read_bytes(),
+    }
     refused = 0
     for suffix, content in whole.items():
         for _ in range(60):
@@ -512,21 +554,30 @@ def spoilt(line: int, column: int, text: str) -> Callable[[list[list[str]]], Non
     return change
 
 
-@pytest.mark.parametrize(("change", "words"), [
-    (spoilt(1, 1, "accel_x"), ":1: column 2: there is no column accel_x; did you mean accel_x_m"),
-    (spoilt(1, 2, "accel_x_m_s2"), ":1: column 3: accel_x_m_s2 once more"),
-    (spoilt(1, 9, "pressure_pa"), ":1: the column mag_z_ut is missing beside mag_x_ut"),
-    (spoilt(30, 4, "fast"), ":30: gyro_x_rad_s: 'fast' is no finite number"),
-    (spoilt(30, 4, "nan"), ":30: gyro_x_rad_s: 'nan' is no finite number"),
-    (spoilt(30, 4, ""), ": line 30: accel_x_m_s2 or one beside it has a value that is no finite"),
-    (spoilt(30, 0, "0.001"), ": line 30: time runs backwards in accel_x_m_s2"),
-    (lambda rows: rows[30].pop(), ":31: 13 cells, but 14 columns"),
-    (lambda rows: rows.__delitem__(slice(2, None)), ": accel_x_m_s2 or one beside it: 1 rows"),
-    (lambda rows: rows.clear(), ":1: the column time_s is missing"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            spoilt(1, 1, "accel_x"),
+            ":1: column 2: there is no column accel_x; did you mean accel_x_m",
+        ),
+        (spoilt(1, 2, "accel_x_m_s2"), ":1: column 3: accel_x_m_s2 once more"),
+        (spoilt(1, 9, "pressure_pa"), ":1: the column mag_z_ut is missing beside mag_x_ut"),
+        (spoilt(30, 4, "fast"), ":30: gyro_x_rad_s: 'fast' is no finite number"),
+        (spoilt(30, 4, "nan"), ":30: gyro_x_rad_s: 'nan' is no finite number"),
+        (
+            spoilt(30, 4, ""),
+            ": line 30: accel_x_m_s2 or one beside it has a value that is no finite",
+        ),
+        (spoilt(30, 0, "0.001"), ": line 30: time runs backwards in accel_x_m_s2"),
+        (lambda rows: rows[30].pop(), ":31: 13 cells, but 14 columns"),
+        (lambda rows: rows.__delitem__(slice(2, None)), ": accel_x_m_s2 or one beside it: 1 rows"),
+        (lambda rows: rows.clear(), ":1: the column time_s is missing"),
+    ],
+)
 def test_a_bad_csv_is_refused_by_line(
     motion: Motion, tmp_path: Path, change: Callable[[list[list[str]]], None], words: str
-) -> None:  # fmt: skip
+) -> None:
     assert words in refusal(written(tmp_path, motion, change=change))
 
 
@@ -544,7 +595,7 @@ def test_a_bad_log_is_refused_by_topic_and_byte(motion: Motion, tmp_path: Path) 
 
 def test_a_refused_file_is_status_2_and_the_others_are_replayed(
     tool: Tool, motion: Motion, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:  # fmt: skip
+) -> None:
     folder = tmp_path / "many"
     folder.mkdir()
     saved(folder, motion.arrays(), "good.npz")
@@ -560,7 +611,7 @@ def test_a_refused_file_is_status_2_and_the_others_are_replayed(
 
 def test_what_broke_off_leaves_no_report(
     tool: Tool, motion: Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:  # fmt: skip
+) -> None:
     path = saved(tmp_path, motion.arrays())
     assert tool(path)[1] and (tmp_path / "out/motion.npz.png").exists()
 

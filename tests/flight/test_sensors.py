@@ -19,8 +19,12 @@ from keel.flight.scenario import Place, Quality
 from keel.flight.sensors import Broken, Inertial, Slow
 
 REST = [0.0, 0.0, -9.81, 0.0, 0.0, 0.0]
-IMU = [("accelerometer", "<f4", (3,)), ("gyroscope", "<f4", (3,)), ("temperature", "<i2"),
-       ("count", "<u4")]  # fmt: skip
+IMU = [
+    ("accelerometer", "<f4", (3,)),
+    ("gyroscope", "<f4", (3,)),
+    ("temperature", "<i2"),
+    ("count", "<u4"),
+]
 MEMORY = [
     ("imu", IMU, (3,)),
     ("magnetometer", [("field", "<f4", (3,)), ("count", "<u4")]),
@@ -28,7 +32,7 @@ MEMORY = [
     ("receiver", [("byte", "<u4", (512,)), ("at_us", "<u4", (512,)), ("count", "<u4")], (2,)),
     ("power", [("voltage", "<f4"), ("current", "<f4"), ("count", "<u4")], (2,)),
     ("chip", [("supply", "<u2"), ("temperature", "<i2"), ("count", "<u4")]),
-]  # fmt: skip
+]
 
 
 @dataclass

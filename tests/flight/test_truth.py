@@ -83,8 +83,9 @@ class Counted:
 
 
 @pytest.mark.parametrize("plant", plants.NAMES)
-def test_no_sample_is_of_the_future(copter: Copter, plant: str,
-                                    monkeypatch: pytest.MonkeyPatch) -> None:  # fmt: skip
+def test_no_sample_is_of_the_future(
+    copter: Copter, plant: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A run of tasks begins when a millisecond begins: no sample is newer than that."""
     made: list[Counted] = []
 

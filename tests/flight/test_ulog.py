@@ -56,8 +56,11 @@ def begun(topic: int, name: str, instance: int = 0) -> bytes:
 def head(flags: int = 0, offsets: Iterable[int] = (0, 0, 0)) -> bytes:
     """The file's first bytes, with the message of flags."""
     bits_of_flags = bytes([1, *[0] * 7, flags, *[0] * 7])
-    return (bytes.fromhex("554c6f6701123501") + struct.pack("<Q", 123456)
-            + message("B", bits_of_flags + struct.pack("<3Q", *offsets)))  # fmt: skip
+    return (
+        bytes.fromhex("554c6f6701123501")
+        + struct.pack("<Q", 123456)
+        + message("B", bits_of_flags + struct.pack("<3Q", *offsets))
+    )
 
 
 def definitions() -> list[bytes]:
@@ -87,15 +90,18 @@ def attitude(time_us: int, number: int) -> bytes:
 
 def esc(time_us: int, number: int) -> bytes:
     """A sample with two formats in it."""
-    parts = b"".join(struct.pack("<Qif3B5x", time_us - at, 1000 * number - at, 11.5 + at, at, 2, 3)
-                     for at in range(2))  # fmt: skip
+    parts = b"".join(
+        struct.pack("<Qif3B5x", time_us - at, 1000 * number - at, 11.5 + at, at, 2, 3)
+        for at in range(2)
+    )
     return struct.pack("<QH?c4x", time_us, number, number % 2 == 1, b"x") + parts
 
 
 def place(time_us: int, number: int) -> bytes:
     """A sample with numbers of many lengths."""
-    return struct.pack("<Q3fdqbhI", time_us, number, -number, -2.0, 47.4, -(1 << 50), -7, -300,
-                       1 << 31)  # fmt: skip
+    return struct.pack(
+        "<Q3fdqbhI", time_us, number, -number, -2.0, 47.4, -(1 << 50), -7, -300, 1 << 31
+    )
 
 
 def data(topic: int, body: bytes) -> bytes:
@@ -121,18 +127,25 @@ def recording(count: int = 100) -> list[bytes]:
     every = list(samples(count))
     half = len(every) // 2
     return [
-        head(), *definitions(),
-        begun(ATTITUDE, "vehicle_attitude"), begun(ESC, "esc_status", 1),
-        begun(PLACE, "vehicle_local_position"), begun(COMBINED, "sensor_combined"),
-        begun(LOAD, "cpuload"), begun(OUTPUTS, "actuator_outputs"), *every[:half],
+        head(),
+        *definitions(),
+        begun(ATTITUDE, "vehicle_attitude"),
+        begun(ESC, "esc_status", 1),
+        begun(PLACE, "vehicle_local_position"),
+        begun(COMBINED, "sensor_combined"),
+        begun(LOAD, "cpuload"),
+        begun(OUTPUTS, "actuator_outputs"),
+        *every[:half],
         message("L", b"4" + struct.pack("<Q", 20_100_000) + b"[commander] takeoff"),
         message("C", b"6" + struct.pack("<HQ", 9, 20_100_007) + "[tag] 20 µs".encode()),
-        message("S", SYNC), message("O", struct.pack("<H", 120)),
+        message("S", SYNC),
+        message("O", struct.pack("<H", 120)),
         keyed("P", "float MC_ROLL_P", struct.pack("<f", 5.5)),
-        message("R", struct.pack("<H", LOAD)), begun(LATE, "cpuload", 1),
+        message("R", struct.pack("<H", LOAD)),
+        begun(LATE, "cpuload", 1),
         data(LATE, struct.pack("<Qf", 20_100_009, 0.5)),
         *(one for one in every[half:] if one[3:5] != struct.pack("<H", LOAD)),
-    ]  # fmt: skip
+    ]
 
 
 def written(folder: Path, content: bytes) -> Path:
@@ -147,8 +160,11 @@ def flat(before: str, rows: Any) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in rows.dtype.names:
         shape = rows.dtype[name].shape
-        parts = {f"{before}{name}[{at}]": rows[name][:, at] for at in range(shape[0])} if shape \
-            else {f"{before}{name}": rows[name]}  # fmt: skip
+        parts = (
+            {f"{before}{name}[{at}]": rows[name][:, at] for at in range(shape[0])}
+            if shape
+            else {f"{before}{name}": rows[name]}
+        )
         for path, part in parts.items():
             found.update(flat(f"{path}.", part) if part.dtype.names else {path: part})
     return found
@@ -163,8 +179,9 @@ def compare(path: Path) -> ulog.Log:
     """All that both readers have."""
     ours, theirs = ulog.read(path), ULog(str(path))
     assert not theirs.file_corruption and not ours.damage and not ours.cut
-    assert ({topic for topic, rows in ours.data.items() if len(rows)}
-            == {(topic.name, topic.multi_id) for topic in theirs.data_list})  # fmt: skip
+    assert {topic for topic, rows in ours.data.items() if len(rows)} == {
+        (topic.name, topic.multi_id) for topic in theirs.data_list
+    }
     for topic in theirs.data_list:
         fields = flat("", ours.topic(topic.name, topic.multi_id))
         assert list(fields) == list(topic.data)
@@ -177,23 +194,30 @@ def compare(path: Path) -> ulog.Log:
     assert ours.lists == theirs.msg_info_multiple_dict
     assert ours.dropouts == [(one.timestamp, one.duration) for one in theirs.dropouts]
     tagged = [one for some in theirs.logged_messages_tagged.values() for one in some]
-    assert ([(text.time_us, text.text, ord(text.level), text.tag) for text in ours.texts]
-            == [(one.timestamp, one.message, one.log_level, getattr(one, "tag", None))
-                for one in [*theirs.logged_messages, *tagged]])  # fmt: skip
+    assert [(text.time_us, text.text, ord(text.level), text.tag) for text in ours.texts] == [
+        (one.timestamp, one.message, one.log_level, getattr(one, "tag", None))
+        for one in [*theirs.logged_messages, *tagged]
+    ]
     return ours
 
 
 def test_it_reads_what_pyulog_reads(tmp_path: Path) -> None:
     log = compare(written(tmp_path, b"".join(recording())))
     assert log.start_us == 123456 and len(log.data) == 7
-    assert log.information == {"sys_name": "PX4", "ver_release": 0x010D0000,
-                               "time_ref_utc": -3600, "drift": 0.25}  # fmt: skip
+    assert log.information == {
+        "sys_name": "PX4",
+        "ver_release": 0x010D0000,
+        "time_ref_utc": -3600,
+        "drift": 0.25,
+    }
     assert log.lists == {"perf": [["first", "more"], ["again"]], "events": [[b"\0\xff"]]}
     assert log.parameters == {"MC_ROLL_P": 6.5, "SYS_AUTOSTART": 4001, "WIDE": -(1 << 40)}
     assert [each[1:] for each in log.changed] == [("MC_ROLL_P", 5.5)]
     assert log.defaults == {0: {"MC_ROLL_P": 7.0, "SYS_AUTOSTART": 0}, 1: {"MC_ROLL_P": 7.0}}
     assert [(text.text, text.tag) for text in log.texts] == [
-        ("[commander] takeoff", None), ("[tag] 20 µs", 9)]  # fmt: skip
+        ("[commander] takeoff", None),
+        ("[tag] 20 µs", 9),
+    ]
     assert [length for _, length in log.dropouts] == [120]
     reports = log.topic("esc_status", 1)["esc"]
     np.testing.assert_array_equal(reports["rpm"][:, 1], 1000 * np.arange(100) - 1)
@@ -225,11 +249,19 @@ def test_flags_that_a_reader_must_know_are_refused(tmp_path: Path) -> None:
         ulog.read(path)
 
 
-@pytest.mark.parametrize("text", [
-    "loop:uint64_t timestamp;loop[2] self;", "none:uint64_t timestamp;missing more;",
-    "huge:uint64_t timestamp;float[70000] much;", "zero:float[0] nothing;", "empty:",
-    "twice:float a;float a;", "_only:uint8_t[4] _padding0;", f"long:char[{'9' * 5000}] x;",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "text",
+    [
+        "loop:uint64_t timestamp;loop[2] self;",
+        "none:uint64_t timestamp;missing more;",
+        "huge:uint64_t timestamp;float[70000] much;",
+        "zero:float[0] nothing;",
+        "empty:",
+        "twice:float a;float a;",
+        "_only:uint8_t[4] _padding0;",
+        f"long:char[{'9' * 5000}] x;",
+    ],
+)
 def test_formats_that_cannot_be_are_told(tmp_path: Path, text: str) -> None:
     wrong = [message("F", text.encode()), begun(9, text.partition(":")[0])]
     messages = [*recording(4), *wrong, data(ATTITUDE, attitude(30_000_000, 5))]

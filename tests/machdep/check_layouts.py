@@ -157,9 +157,7 @@ def host_values(tools: Toolchain, source: Path, options: Sequence[str]) -> list[
     return words_of(output_of(command, dict(os.environ), "the host's compiler"))
 
 
-def seen_by_all(
-    tools: Toolchain, source: Path, options: Sequence[str]
-) -> dict[str, list[int]]:  # fmt: skip
+def seen_by_all(tools: Toolchain, source: Path, options: Sequence[str]) -> dict[str, list[int]]:
     """The facts of a program, by who says so; the target's compiler comes first."""
     folded, _ = frama_c_values(tools, source, MACHDEP_FILE, options)
     return {
@@ -213,8 +211,10 @@ def main() -> int:
         print("\n".join(f"  {line}" for line in result.differences), file=sys.stderr)
         return 1
     rest = result.structures - result.on_host
-    print(f"layouts: {of} are the same for CBMC, Frama-C and the target's compiler, and on the "
-          f"host, but for {rest} with pointers there")  # fmt: skip
+    print(
+        f"layouts: {of} are the same for CBMC, Frama-C and the target's compiler, and on the "
+        f"host, but for {rest} with pointers there"
+    )
     return 0
 
 

@@ -63,9 +63,17 @@ FLOATS = ["float", "double", "long double"]
 POINTERS = ["void *", "char *", "double *", "function_t"]
 AGGREGATES = ["struct_short_t", "struct_double_t", "struct_mixed_t", "struct_bits_t", "union_t"]
 INTEGERS = [
-    "signed char", "unsigned char", "short", "unsigned short", "int", "unsigned int",
-    "long", "unsigned long", "long long", "unsigned long long",
-]  # fmt: skip
+    "signed char",
+    "unsigned char",
+    "short",
+    "unsigned short",
+    "int",
+    "unsigned int",
+    "long",
+    "unsigned long",
+    "long long",
+    "unsigned long long",
+]
 # Types of expressions: what the data model itself says, without any header.
 IMPLICIT = {"sizeof": "sizeof(int)", "difference": "(char *)0 - (char *)0", "wide": "L'x'"}
 
@@ -116,9 +124,13 @@ def program(all_facts: Sequence[Fact]) -> str:
 def output_of(command: Sequence[str], environment: dict[str, str], what: str) -> str:
     """The output of a tool; its failure is ours, with its own words."""
     done = subprocess.run(
-        list(command), env=environment, text=True, capture_output=True,
-        stdin=subprocess.DEVNULL, check=False,
-    )  # fmt: skip
+        list(command),
+        env=environment,
+        text=True,
+        capture_output=True,
+        stdin=subprocess.DEVNULL,
+        check=False,
+    )
     if done.returncode != 0:
         raise ToolchainError(f"{what} refuses the facts:\n{done.stdout}{done.stderr}".strip())
     return done.stdout
@@ -133,7 +145,7 @@ def words_of(assembly: str) -> list[int]:
 
 def compiler_values(
     tools: Toolchain, source: Path, options: Sequence[str] = ("-std=gnu99",)
-) -> list[int]:  # fmt: skip
+) -> list[int]:
     """The facts as the compiler sees them: the words of its assembly."""
     command = [*tools.command("arm-none-eabi-gcc"), *TARGET_FLAGS, *options, "-ffreestanding"]
     text = output_of([*command, "-S", str(source), "-o", "-"], dict(os.environ), "the compiler")
@@ -142,7 +154,7 @@ def compiler_values(
 
 def frama_c_values(
     tools: Toolchain, source: Path, machdep: Path, options: Sequence[str] = ()
-) -> tuple[list[int], str]:  # fmt: skip
+) -> tuple[list[int], str]:
     """The facts as Frama-C folds them, and its description of the machine."""
     # Frama-C compiles a script beside its source, where two processes would collide.
     script = source.with_name(machdep.name)

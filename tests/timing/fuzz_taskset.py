@@ -25,14 +25,61 @@ ROOT = Path(__file__).resolve().parents[2]
 SEED_FILE = ROOT / "specs/tasksets/urpilot.toml"
 PROBLEM = re.compile(r"fuzzed\.toml:(\d+): (?:no usable TOML|[^:].*: \S.*)")
 WORDS = (
-    "[[task]]", "[[chain]]", "[task]", "[scheduler]", "[a.b]", '"""', "'''", "{", "}", "[", "]",
+    "[[task]]",
+    "[[chain]]",
+    "[task]",
+    "[scheduler]",
+    "[a.b]",
+    '"""',
+    "'''",
+    "{",
+    "}",
+    "[",
+    "]",
     "=",
-    "name", "period_us", "budget_us", "phase_us", "class", '"real-time"', '"low"', "priority",
-    "realtime", "true", "false", "0", "-1", "1", "2147483647", "2147483648", "9" * 30, "9" * 5000,
-    "1e308", "nan", "inf", "1979-05-27", "07:32:00", "0x7f", '"\\u0000"', "\0", "\t", "\r\n", "\n",
-    "#", ",", ".", '""', "ü", "τ", "path", "guard_us", '{a = 1, b = [1, 2]}', "[" * 2000,
-    "0x" + "f" * 4000, "period_us = 0x" + "f" * 4000 + "\n", ".a" * 3000,
-)  # fmt: skip
+    "name",
+    "period_us",
+    "budget_us",
+    "phase_us",
+    "class",
+    '"real-time"',
+    '"low"',
+    "priority",
+    "realtime",
+    "true",
+    "false",
+    "0",
+    "-1",
+    "1",
+    "2147483647",
+    "2147483648",
+    "9" * 30,
+    "9" * 5000,
+    "1e308",
+    "nan",
+    "inf",
+    "1979-05-27",
+    "07:32:00",
+    "0x7f",
+    '"\\u0000"',
+    "\0",
+    "\t",
+    "\r\n",
+    "\n",
+    "#",
+    ",",
+    ".",
+    '""',
+    "ü",
+    "τ",
+    "path",
+    "guard_us",
+    "{a = 1, b = [1, 2]}",
+    "[" * 2000,
+    "0x" + "f" * 4000,
+    "period_us = 0x" + "f" * 4000 + "\n",
+    ".a" * 3000,
+)
 
 
 def replace_number(text: str, draw: random.Random) -> str:
@@ -77,8 +124,14 @@ def garble(text: str, draw: random.Random) -> str:
 
 
 MUTATIONS: tuple[Callable[[str, random.Random], str], ...] = (
-    replace_number, replace_number, move_line, put_word, put_word, cut, garble
-)  # fmt: skip
+    replace_number,
+    replace_number,
+    move_line,
+    put_word,
+    put_word,
+    cut,
+    garble,
+)
 
 
 def mutant(seed_text: str, number: int) -> str:
@@ -141,8 +194,10 @@ def main() -> int:
     seconds = time.monotonic() - began
     report = {"files": files, **asdict(tally), "seconds": round(seconds, 1)}
     write_json(ROOT / "build/timing/fuzz.json", report)
-    print(f"fuzz: {files} files, {tally.accepted} accepted and {tally.refused} refused in words, "
-          f"no traceback ({seconds:.0f} s)")  # fmt: skip
+    print(
+        f"fuzz: {files} files, {tally.accepted} accepted and {tally.refused} refused in words, "
+        f"no traceback ({seconds:.0f} s)"
+    )
     return 0
 
 

@@ -24,8 +24,12 @@ def message(kind: str, body: bytes) -> bytes:
 
 def task(slot: int, period_us: int, budget_us: int, priority: int, name: str) -> bytes:
     """What a task declares; the guard is 20 us."""
-    return message("D", struct.pack("<HQIIIBB32s", TASK, 0, period_us, budget_us, 20, slot,
-                                    priority, name.encode()))  # fmt: skip
+    return message(
+        "D",
+        struct.pack(
+            "<HQIIIBB32s", TASK, 0, period_us, budget_us, 20, slot, priority, name.encode()
+        ),
+    )
 
 
 def run(slot: int, start: int, late: int, length: int, skipped: int = 0, flags: int = 0) -> bytes:
@@ -38,8 +42,10 @@ def written(path: Path, messages: Sequence[bytes], formats: Sequence[str] = FORM
     magic = bytes([0x55, 0x4C, 0x6F, 0x67, 0x01, 0x12, 0x35, 0x01])
     log = [magic, bytes(8), message("B", bytes(40))]
     log += [message("F", one.encode()) for one in formats]
-    log += [message("A", struct.pack("<BH", 0, number) + one.partition(":")[0].encode())
-            for number, one in enumerate(formats)]  # fmt: skip
+    log += [
+        message("A", struct.pack("<BH", 0, number) + one.partition(":")[0].encode())
+        for number, one in enumerate(formats)
+    ]
     path.write_bytes(b"".join([*log, *messages]))
     return path
 
@@ -48,11 +54,13 @@ def written(path: Path, messages: Sequence[bytes], formats: Sequence[str] = FORM
 # deadline at 9000, and Rate loop, which was due from 3000 on, skips six periods. Then 2 ms are
 # lost.
 SAMPLE = (
-    task(*LOOP), run(0, 1000, 0, 80, flags=1),
-    task(*LOW), run(2, 1080, 80, 350, flags=1),
+    task(*LOOP),
+    run(0, 1000, 0, 80, flags=1),
+    task(*LOW),
+    run(2, 1080, 80, 350, flags=1),
     run(0, 2010, 10, 90),
     run(2, 5100, 100, 4000, flags=2),
     run(0, 9100, 6100, 90, skipped=6),
     message("O", struct.pack("<H", 2)),
     run(0, 12000, 0, 80),
-)  # fmt: skip
+)

@@ -29,9 +29,12 @@ def random_set(number: int, load: float, free: bool = False) -> TaskSet:
         tasks.append(Task(f"t{index}", f"t{index}", class_name, period, budget, phase))
     costs = Costs(guard_us=0, pass_us=0, dispatch_us=0)
     if not free:
-        costs = Costs(guard_us=draw.randrange(6), pass_us=draw.randrange(4),
-                      dispatch_us=draw.randrange(3),
-                      utilisation_limit_percent=draw.choice((100.0, 100.0, 69.3)))  # fmt: skip
+        costs = Costs(
+            guard_us=draw.randrange(6),
+            pass_us=draw.randrange(4),
+            dispatch_us=draw.randrange(3),
+            utilisation_limit_percent=draw.choice((100.0, 100.0, 69.3)),
+        )
     return TaskSet(f"set{number}", tuple(tasks), (), costs)
 
 
@@ -40,8 +43,12 @@ def with_chains(tasks: TaskSet, number: int) -> TaskSet:
     draw = random.Random(number)
     names = [task.name for task in tasks.tasks]
     chains = tuple(
-        Chain(name=name, path=draw.sample(names, draw.randrange(2, min(4, len(names)) + 1)),
-              reaction_limit_us=1, freshness_limit_us=1)
+        Chain(
+            name=name,
+            path=draw.sample(names, draw.randrange(2, min(4, len(names)) + 1)),
+            reaction_limit_us=1,
+            freshness_limit_us=1,
+        )
         for name in ("first", "second")
-    )  # fmt: skip
+    )
     return replace(tasks, chains=chains)

@@ -80,8 +80,10 @@ def test_keel_by_hand(program: Path) -> None:
     result = run(program, Experiment(SMALL, duration_us=4000, turn_ns=0))
     assert worst(result) == {"R": 20, "H": 50, "L": 180}
     assert {name: outcome.runs for name, outcome in result.tasks.items()} == {
-        "R": 40, "H": 10, "L": 10,
-    }  # fmt: skip
+        "R": 40,
+        "H": 10,
+        "L": 10,
+    }
 
 
 def test_a_pass_is_not_a_priority_order(program: Path, urpilot: TaskSet) -> None:
@@ -145,8 +147,9 @@ def test_costs_by_hand(program: Path) -> None:
 
 def test_deviation_by_hand(program: Path) -> None:
     """B (T = 50) waits 10 for A (T = 100) every other time: periods of 40 and 60, sigma 10."""
-    tasks = TaskSet("two", (Task("A", "A", "real-time", 100, 10),
-                            Task("B", "B", "real-time", 50, 10)), (), FREE)  # fmt: skip
+    tasks = TaskSet(
+        "two", (Task("A", "A", "real-time", 100, 10), Task("B", "B", "real-time", 50, 10)), (), FREE
+    )
     result = run(program, Experiment(tasks, duration_us=100_000, turn_ns=0))
     assert result.tasks["B"].sigma == 10.0 and result.tasks["A"].sigma == 0.0
     assert result.tasks["B"].samples == 1000 and result.tasks["B"].mean == pytest.approx(50, 1e-3)
@@ -169,8 +172,12 @@ def test_paths_by_hand(program: Path) -> None:
         Chain(name="forth", path=["A", "B"], reaction_limit_us=1, freshness_limit_us=1),
         Chain(name="back", path=["B", "A"], reaction_limit_us=1, freshness_limit_us=1),
     )
-    tasks = TaskSet("two", (Task("A", "A", "real-time", 100, 10),
-                            Task("B", "B", "real-time", 200, 10)), chains, FREE)  # fmt: skip
+    tasks = TaskSet(
+        "two",
+        (Task("A", "A", "real-time", 100, 10), Task("B", "B", "real-time", 200, 10)),
+        chains,
+        FREE,
+    )
     result = run(program, Experiment(tasks, duration_us=10_000, turn_ns=0))
     forth, back = result.chains["forth"], result.chains["back"]
     assert (forth.reaction, forth.freshness, forth.outputs) == (20, 20, 50)
@@ -182,16 +189,25 @@ def test_paths_by_hand(program: Path) -> None:
 def test_skipping_idle_turns_changes_nothing(program: Path, urpilot: TaskSet) -> None:
     for model in ("constant", "uniform", "heavy"):
         skipped, stepped = (
-            run(program, Experiment(urpilot, model=model, duration_us=300_000, skip_idle=skip,
-                                    first_us=(1 << 32) - 100_000))
+            run(
+                program,
+                Experiment(
+                    urpilot,
+                    model=model,
+                    duration_us=300_000,
+                    skip_idle=skip,
+                    first_us=(1 << 32) - 100_000,
+                ),
+            )
             for skip in (True, False)
-        )  # fmt: skip
+        )
         assert skipped == stepped
 
 
 def test_the_seed_decides(program: Path, urpilot: TaskSet) -> None:
-    plans = [Experiment(urpilot, model="uniform", seed=seed, duration_us=100_000)
-             for seed in (1, 1, 2)]  # fmt: skip
+    plans = [
+        Experiment(urpilot, model="uniform", seed=seed, duration_us=100_000) for seed in (1, 1, 2)
+    ]
     first, again, other = board.run_batch(program, plans, 60.0)
     assert first == again and first.fingerprint != other.fingerprint
 
@@ -341,8 +357,10 @@ def simulated_least(program: Path, tasks: list[Task]) -> float:
     found = []
     for order in permutations(tasks):
         ordered = TaskSet("orders", order, (), FREE)
-        plans = [Experiment(ordered, model="uniform", seed=seed, duration_us=500_000, turn_ns=0)
-                 for seed in (1, 2, 3)]  # fmt: skip
+        plans = [
+            Experiment(ordered, model="uniform", seed=seed, duration_us=500_000, turn_ns=0)
+            for seed in (1, 2, 3)
+        ]
         results = board.run_batch(program, plans, 60.0)
         found.append(sum(class_sigma(ordered, item, "real-time") for item in results) / 3)
     return min(found)

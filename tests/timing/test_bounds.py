@@ -201,8 +201,9 @@ def test_paths_that_are_not_safe_are_told(urpilot: TaskSet) -> None:
     chains = {row["name"]: row for row in report["chains"]}
     assert (chains["IMU, rate"]["within"], chains["IMU, rate"]["safe_within"]) == (True, True)
     assert (chains["Magnetometer"]["within"], chains["Magnetometer"]["safe_within"]) == (
-        True, False,
-    )  # fmt: skip
+        True,
+        False,
+    )
     assert not chains["Radio, state machine"]["within"]
     assert any(line.startswith("path Magnetometer may take longer") for line in report["advice"])
     assert not any("IMU" in line for line in report["advice"])

@@ -29,16 +29,13 @@ def copter() -> TaskSet:
     number = {name: int(value) for name, value in DEFINED.findall(text)}
     named = {name: value.lower().replace("_", "-") for name, value in CLASSED.findall(text)}
     rows = {
-        "Background radio": {
-            "budget": number["RADIO_WCET_US"], "phase": number["RADIO_PHASE_US"],
-        },
+        "Background radio": {"budget": number["RADIO_WCET_US"], "phase": number["RADIO_PHASE_US"]},
         "Foreground radio": {
-            "phase": number["PILOT_PHASE_US"], "class_name": named["PILOT_PRIORITY"],
+            "phase": number["PILOT_PHASE_US"],
+            "class_name": named["PILOT_PRIORITY"],
         },
-        "State machine": {
-            "phase": number["STATE_PHASE_US"], "class_name": named["STATE_PRIORITY"],
-        },
-    }  # fmt: skip
+        "State machine": {"phase": number["STATE_PHASE_US"], "class_name": named["STATE_PRIORITY"]},
+    }
     paper = read(ROOT / "specs/tasksets/urpilot.toml")
     return replace(
         paper, tasks=tuple(replace(task, **rows.get(task.name, {})) for task in paper.tasks)
@@ -85,8 +82,11 @@ def test_the_pilot_is_not_lost_when_a_task_waits_for_its_promotion(copter: TaskS
     tasks = {task.name: task for task in copter.tasks}
     periods = sum(tasks[name].period for name in HEARD_BY)
     waits = {name: promoted_us(tasks[name]) + periods + 20_000 for name in HEARD_BY}
-    assert waits == {"Background radio": 145_000, "Foreground radio": 145_000,
-                     "State machine": 145_000}  # fmt: skip
+    assert waits == {
+        "Background radio": 145_000,
+        "Foreground radio": 145_000,
+        "State machine": 145_000,
+    }
     assert max(waits.values()) < shortest_loss_us()
 
 

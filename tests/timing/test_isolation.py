@@ -233,8 +233,9 @@ def test_tasks_that_respond_in_time_are_not_promoted() -> None:
     tasks = (Task("A", "A", "real-time", 1000, 30), Task("o", "o", "low", 5000, 40))
     found = isolation_of(TaskSet("calm", tasks, (), FREE))
     assert (found.theorem, found.unpromoted) == (
-        UNPROMOTED, "every other task responds within its period",
-    )  # fmt: skip
+        UNPROMOTED,
+        "every other task responds within its period",
+    )
     assert [(row.bound, row.whatever) for row in found.starts] == [(20, 80)]
 
 
@@ -294,21 +295,36 @@ def crowded(number: int) -> TaskSet:
         guard = draw.choice((1, 2, 5))
         count = draw.randrange(1, 4)
         realtime = [
-            Task(f"r{index}", f"r{index}", "real-time", base + draw.randrange(base),
-                 draw.randrange(1, base // count // 2 + base // 4), draw.randrange(base))
+            Task(
+                f"r{index}",
+                f"r{index}",
+                "real-time",
+                base + draw.randrange(base),
+                draw.randrange(1, base // count // 2 + base // 4),
+                draw.randrange(base),
+            )
             for index in range(count)
-        ]  # fmt: skip
+        ]
         longest = min(task.period - task.budget for task in realtime) - guard
         if longest < 2:
             continue
         others = [
-            Task(f"o{index}", f"o{index}", draw.choice(("low", "high", "high")),
-                 draw.randrange(longest, 12 * base) + base, longest - draw.choice((0, 0, 1)),
-                 draw.randrange(base))
+            Task(
+                f"o{index}",
+                f"o{index}",
+                draw.choice(("low", "high", "high")),
+                draw.randrange(longest, 12 * base) + base,
+                longest - draw.choice((0, 0, 1)),
+                draw.randrange(base),
+            )
             for index in range(draw.randrange(1, 3))
-        ]  # fmt: skip
-        tasks = TaskSet(f"set{number}", (*realtime, *others), (),
-                        Costs(guard_us=guard, pass_us=0, dispatch_us=0))  # fmt: skip
+        ]
+        tasks = TaskSet(
+            f"set{number}",
+            (*realtime, *others),
+            (),
+            Costs(guard_us=guard, pass_us=0, dispatch_us=0),
+        )
         if not any(admission_reasons(tasks)):
             return tasks
 

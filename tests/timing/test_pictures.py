@@ -20,9 +20,12 @@ def flight(fault: str, limit: int, latched_s: float, worst: float) -> Flight:
 
 
 FLIGHTS = [
-    flight("stuck", 0, 0.2, 0.44), flight("stuck", 100, 0.2, 0.44), flight("burst", 0, -1.0, 0.13),
-    flight("burst", 100, 0.1, 0.08), flight("two equal", 0, -1.0, 9.87),
-]  # fmt: skip
+    flight("stuck", 0, 0.2, 0.44),
+    flight("stuck", 100, 0.2, 0.44),
+    flight("burst", 0, -1.0, 0.13),
+    flight("burst", 100, 0.1, 0.08),
+    flight("two equal", 0, -1.0, 9.87),
+]
 
 
 def test_the_committed_drawing_is_not_stale(tmp_path: Path) -> None:

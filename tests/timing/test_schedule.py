@@ -20,11 +20,7 @@ from keel.install import Toolchain
 from keel.install.packages import provide
 
 provide("schedule")
-from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import (
-    Trace,
-    TrackDescriptor,
-    TrackEvent,
-)
+from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import Trace, TrackDescriptor, TrackEvent
 
 from keel.timeline import command as schedule
 from keel.timeline import picture, runs, table
@@ -59,8 +55,10 @@ def us(packet: Any) -> int:
 
 def details(event: Any, names: dict[int, str]) -> dict[str, int]:
     """What is told beside an event."""
-    return {names[one.name_iid]: one.bool_value if one.HasField("bool_value") else one.int_value
-            for one in event.debug_annotations}  # fmt: skip
+    return {
+        names[one.name_iid]: one.bool_value if one.HasField("bool_value") else one.int_value
+        for one in event.debug_annotations
+    }
 
 
 def tracks_of(path: Path) -> dict[int, Track]:
@@ -74,9 +72,13 @@ def tracks_of(path: Path) -> dict[int, Track]:
     for packet in trace.packet:
         told = packet.track_descriptor
         if packet.HasField("track_descriptor"):
-            tracks[told.uuid] = Track(told.name, told.parent_uuid, told.sibling_order_rank,
-                                      told.counter.unit_name,
-                                      told.child_ordering == TrackDescriptor.EXPLICIT)  # fmt: skip
+            tracks[told.uuid] = Track(
+                told.name,
+                told.parent_uuid,
+                told.sibling_order_rank,
+                told.counter.unit_name,
+                told.child_ordering == TrackDescriptor.EXPLICIT,
+            )
     open_slices: dict[int, list[Any]] = defaultdict(list)
     events = [packet for packet in trace.packet if packet.HasField("track_event")]
     for packet in sorted(events, key=us):  # As a reader does: by time, else as they stand.
@@ -85,8 +87,14 @@ def tracks_of(path: Path) -> dict[int, Track]:
             open_slices[event.track_uuid].append(packet)
         elif event.type == TrackEvent.TYPE_SLICE_END:
             begin = open_slices[event.track_uuid].pop()
-            track.slices.append((names[begin.track_event.name_iid], us(begin), us(packet),
-                                 details(begin.track_event, words)))  # fmt: skip
+            track.slices.append(
+                (
+                    names[begin.track_event.name_iid],
+                    us(begin),
+                    us(packet),
+                    details(begin.track_event, words),
+                )
+            )
         elif event.type == TrackEvent.TYPE_INSTANT:
             track.instants.append((names[event.name_iid], us(packet)))
         else:
@@ -155,8 +163,12 @@ def test_releases_and_deadlines_lie_on_the_grid_of_the_task_set(demo: Demo) -> N
 
 def test_what_is_not_real_time_starts_where_it_fits_before_the_next_release(demo: Demo) -> None:
     guard = URPILOT["scheduler"]["guard_us"]
-    released = sorted(time for name, one in TASKS.items() if one["class"] == "real-time"
-                      for _, time in below(demo.tracks, name).instants)  # fmt: skip
+    released = sorted(
+        time
+        for name, one in TASKS.items()
+        if one["class"] == "real-time"
+        for _, time in below(demo.tracks, name).instants
+    )
     others = [name for name, one in TASKS.items() if one["class"] != "real-time"]
     for name in others:
         for _, start, end, told in called(demo.tracks, name).slices:
@@ -177,8 +189,12 @@ def test_counters(demo: Demo) -> None:
 def test_tracks_stand_below_one_in_the_order_of_the_first_runs(demo: Demo) -> None:
     (root,) = [uuid for uuid, track in demo.tracks.items() if not track.parent]
     top = sorted((track.rank, track.name) for track in demo.tracks.values() if track.parent == root)
-    assert [name for _, name in top][:4] == ["slack", "guard", "Background IMU (realtime, 1 ms)",
-                                             "Foreground IMU (realtime, 2 ms)"]  # fmt: skip
+    assert [name for _, name in top][:4] == [
+        "slack",
+        "guard",
+        "Background IMU (realtime, 1 ms)",
+        "Foreground IMU (realtime, 2 ms)",
+    ]
     assert len(top) == 2 + len(TASKS) and demo.tracks[root].ordered
 
 
@@ -187,9 +203,19 @@ def test_a_log_made_by_hand(tmp_path: Path) -> None:
     tracks = tracks_of(files[0])
     loop, low = called(tracks, "Rate <loop>"), called(tracks, "Telemetry")
     assert [(start, end) for _, start, end, _ in loop.slices] == [
-        (1000, 1080), (2010, 2100), (9100, 9190), (12000, 12080)]  # fmt: skip
-    assert loop.slices[2][3] == {"late_us": 6100, "length_us": 90, "slack_us": 2900, "skipped": 6,
-                                 "promoted": False, "over_budget": False}  # fmt: skip
+        (1000, 1080),
+        (2010, 2100),
+        (9100, 9190),
+        (12000, 12080),
+    ]
+    assert loop.slices[2][3] == {
+        "late_us": 6100,
+        "length_us": 90,
+        "slack_us": 2900,
+        "skipped": 6,
+        "promoted": False,
+        "over_budget": False,
+    }
     assert [one[3]["slack_us"] for one in low.slices] == [920, 0]
     assert [one[3]["promoted"] for one in low.slices] == [False, True]
     assert [one[3]["over_budget"] for one in low.slices] == [True, True]
@@ -204,11 +230,35 @@ def test_the_table_of_a_log_made_by_hand(tmp_path: Path) -> None:
     """The time from the first run to the end of the last is 11080 us."""
     loop, low = table.rows_of(runs.read(written(tmp_path / "hand.ulg", SAMPLE)))
     assert loop == table.Row(
-        "Rate <loop>", 1000, 4, 85.0, 90, 100, pytest.approx(100.0 * 340 / 11080), 6100,
-        (2, 1, 0, 0, 0, 0, 1), overruns=0, promotions=0, skipped=6, missed=0)  # fmt: skip
+        "Rate <loop>",
+        1000,
+        4,
+        85.0,
+        90,
+        100,
+        pytest.approx(100.0 * 340 / 11080),
+        6100,
+        (2, 1, 0, 0, 0, 0, 1),
+        overruns=0,
+        promotions=0,
+        skipped=6,
+        missed=0,
+    )
     assert low == table.Row(
-        "Telemetry", 4000, 2, 2175.0, 4000, 300, pytest.approx(100.0 * 4350 / 11080), 100,
-        (0, 0, 1, 1, 0, 0, 0), overruns=2, promotions=1, skipped=0, missed=1)  # fmt: skip
+        "Telemetry",
+        4000,
+        2,
+        2175.0,
+        4000,
+        300,
+        pytest.approx(100.0 * 4350 / 11080),
+        100,
+        (0, 0, 1, 1, 0, 0, 0),
+        overruns=2,
+        promotions=1,
+        skipped=0,
+        missed=1,
+    )
 
 
 def test_the_table_of_the_demo_is_what_the_scheduler_counted(demo: Demo) -> None:
@@ -221,26 +271,41 @@ def test_the_table_of_the_demo_is_what_the_scheduler_counted(demo: Demo) -> None
 
 def test_a_task_that_takes_the_slot_of_another_has_a_track_of_its_own(tmp_path: Path) -> None:
     other = (2, 2000, 50, 2, "Blackbox")
-    messages = [task(*LOOP), run(0, 0, 0, 50, flags=1), task(*LOW), run(2, 100, 0, 60),
-                run(2, 4100, 0, 60), task(*other), run(2, 9000, 0, 40, flags=1),
-                run(2, 11000, 0, 41)]  # fmt: skip
+    messages = [
+        task(*LOOP),
+        run(0, 0, 0, 50, flags=1),
+        task(*LOW),
+        run(2, 100, 0, 60),
+        run(2, 4100, 0, 60),
+        task(*other),
+        run(2, 9000, 0, 40, flags=1),
+        run(2, 11000, 0, 41),
+    ]
     _, files = schedule.written(written(tmp_path / "two.ulg", messages))
     tracks = tracks_of(files[0])
-    for name, starts in (("Telemetry (low, 4 ms)", [100, 4100]),
-                         ("Blackbox (medium, 2 ms)", [9000, 11000])):  # fmt: skip
+    for name, starts in (
+        ("Telemetry (low, 4 ms)", [100, 4100]),
+        ("Blackbox (medium, 2 ms)", [9000, 11000]),
+    ):
         assert [start for _, start, _, _ in called(tracks, name).slices] == starts
 
 
-@pytest.mark.parametrize(("messages", "told"), [
-    ([], "has no runs of tasks; flights log them with ARGS=--trace"),
-    ([run(0, 77, 0, 50)], "the run at 77 us is of no task that was told (slot 0)"),
-    ([task(*LOOP), run(0, 0, 0, 50), run(0, 99, 0, 50, flags=1)], "the run at 99 us is of no task"),
-    ([task(3, 0, 9, 1, "Odd"), run(3, 0, 0, 5)], "task 'Odd' has no period"),
-    ([message("D", b"\x07\x00rest")], "byte "),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("messages", "told"),
+    [
+        ([], "has no runs of tasks; flights log them with ARGS=--trace"),
+        ([run(0, 77, 0, 50)], "the run at 77 us is of no task that was told (slot 0)"),
+        (
+            [task(*LOOP), run(0, 0, 0, 50), run(0, 99, 0, 50, flags=1)],
+            "the run at 99 us is of no task",
+        ),
+        ([task(3, 0, 9, 1, "Odd"), run(3, 0, 0, 5)], "task 'Odd' has no period"),
+        ([message("D", b"\x07\x00rest")], "byte "),
+    ],
+)
 def test_a_log_that_cannot_be_shown_is_refused(
     messages: list[bytes], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:  # fmt: skip
+) -> None:
     log = written(tmp_path / "bad.ulg", messages)
     assert schedule.main([str(log)]) == 2
     line = capsys.readouterr().err
@@ -261,7 +326,7 @@ def test_a_log_without_the_topics_and_none_at_all_are_refused(tmp_path: Path) ->
 
 def test_the_command_tells_what_it_found(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:  # fmt: skip
+) -> None:
     log = written(tmp_path / "hand.ulg", SAMPLE)
     assert schedule.main([str(log)]) == 0
     *rows, last = capsys.readouterr().out.splitlines(keepends=True)
@@ -269,7 +334,8 @@ def test_the_command_tells_what_it_found(
     assert last == (
         f"schedule: 6 runs of 2 tasks, 1 promoted, 1 behind their deadlines; runs were lost at 1 "
         f"places; {log.with_suffix('.pftrace')} for ui.perfetto.dev, {log.with_suffix('.html')} "
-        f"for any browser\n")  # fmt: skip
+        f"for any browser\n"
+    )
     assert schedule.main(["--seconds", "0"]) == 2
     assert "--seconds: expected 1 to 3600, found 0" in capsys.readouterr().err
 
@@ -302,15 +368,18 @@ def test_a_log_comes_from_the_console_of_a_board(tmp_path: Path) -> None:
     assert called(tracks_of(tmp_path / "board.pftrace"), "Telemetry").slices
 
 
-@pytest.mark.parametrize(("said", "told"), [
-    ("Keel on fmuv5: 21 tasks\n", "board.txt: has no line of a log; a board sends it when `r`"),
-    ("log 00\nlog 0g\n", "board.txt:2: expected hexadecimal digits behind `log`: 'log 0g'"),
-    ("log 123\n", "board.txt:1: expected hexadecimal digits"),
-    ("log 554c\n", "board.ulg: is no log in ULog"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("Keel on fmuv5: 21 tasks\n", "board.txt: has no line of a log; a board sends it when `r`"),
+        ("log 00\nlog 0g\n", "board.txt:2: expected hexadecimal digits behind `log`: 'log 0g'"),
+        ("log 123\n", "board.txt:1: expected hexadecimal digits"),
+        ("log 554c\n", "board.ulg: is no log in ULog"),
+    ],
+)
 def test_a_console_without_a_whole_log_is_refused(
     said: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:  # fmt: skip
+) -> None:
     (tmp_path / "board.txt").write_text(said)
     assert schedule.main([str(tmp_path / "board.txt")]) == 2
     assert told in capsys.readouterr().err

@@ -48,8 +48,9 @@ def text(browser: Browser, name: str) -> str:
 
 def search(browser: Browser, words: str) -> str:
     """Type into the field of the search; what it has found."""
-    browser.evaluate("(() => { const one = document.getElementById('search');"
-                     " one.value = ''; one.focus(); })()")  # fmt: skip
+    browser.evaluate(
+        "(() => { const one = document.getElementById('search'); one.value = ''; one.focus(); })()"
+    )
     browser.type(words)
     return text(browser, "found")
 
@@ -71,19 +72,34 @@ def place(browser: Browser, task_number: int, time_us: int) -> tuple[float, floa
 def test_nothing_fails_and_nothing_comes_from_elsewhere(shown: Browser) -> None:
     events = shown.events
     assert not [one for one in events if one.get("method") == "Runtime.exceptionThrown"]
-    asked = [one["params"]["request"]["url"] for one in events
-             if one.get("method") == "Network.requestWillBeSent"]  # fmt: skip
+    asked = [
+        one["params"]["request"]["url"]
+        for one in events
+        if one.get("method") == "Network.requestWillBeSent"
+    ]
     assert len(asked) == 1 and asked[0].startswith("file:")
     assert shown.evaluate("document.title") == "Schedule: <hand>"
     assert text(shown, "view") == "0.001000 s to 0.012080 s"
 
 
-@pytest.mark.parametrize(("words", "found"), [
-    ("", ""), ("rate", "4 runs"), ("TELE", "2 runs"), ("realtime", "4 runs"), ("gps", "no run"),
-    ("promoted", "1 run"), ("missed", "1 run"), ("skipped", "1 run"), ("over", "2 runs"),
-    ("late>80", "2 runs"), ("late>79", "3 runs"), ("longer>350", "1 run"),
-    ("rate late>5", "2 runs"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        ("", ""),
+        ("rate", "4 runs"),
+        ("TELE", "2 runs"),
+        ("realtime", "4 runs"),
+        ("gps", "no run"),
+        ("promoted", "1 run"),
+        ("missed", "1 run"),
+        ("skipped", "1 run"),
+        ("over", "2 runs"),
+        ("late>80", "2 runs"),
+        ("late>79", "3 runs"),
+        ("longer>350", "1 run"),
+        ("rate late>5", "2 runs"),
+    ],
+)
 def test_the_search(shown: Browser, words: str, found: str) -> None:
     assert search(shown, words) == found
 
@@ -102,7 +118,8 @@ def test_what_is_found_is_shown_one_after_the_other(shown: Browser) -> None:
     shown.click("#previous")
     assert text(shown, "run") == (
         "Rate <loop> (realtime, every 1 ms): from 0.009100 s for 90 us of 100 us, 6100 us behind "
-        "its release, slack 2900 us, guard 20 us, 6 periods skipped")  # fmt: skip
+        "its release, slack 2900 us, guard 20 us, 6 periods skipped"
+    )
     left, right = shown.evaluate("[from, to]")
     assert (left + right) / 2 == pytest.approx(9145.0)
 
@@ -113,7 +130,8 @@ def test_a_run_is_chosen_by_a_click(shown: Browser) -> None:
         mouse(shown, kind, x, y)
     assert text(shown, "run") == (
         "Telemetry (low, every 4 ms): from 0.005100 s for 4000 us of 300 us, 100 us behind its "
-        "release, slack 0 us, guard 20 us, promoted, deadline missed")  # fmt: skip
+        "release, slack 0 us, guard 20 us, promoted, deadline missed"
+    )
     x, y = place(shown, 0, 7000)
     for kind in ("mousePressed", "mouseReleased"):
         mouse(shown, kind, x, y)
@@ -137,11 +155,14 @@ def test_the_wheel_zooms_where_it_points_and_dragging_moves(shown: Browser) -> N
 
 
 def test_the_colours_of_what_matters(shown: Browser) -> None:
-    drawn = {(task_number, time): shown.evaluate(
-        "(() => { const one = document.getElementById('canvas'), at ="
-        f" [x({time}), rowTop({task_number}) + rowHeight() / 2];"
-        " return [...one.getContext('2d').getImageData(at[0], at[1], 1, 1).data].slice(0, 3); })()")
-        for task_number, time in ((0, 12040), (1, 1250), (1, 7000), (1, 11500))}  # fmt: skip
+    drawn = {
+        (task_number, time): shown.evaluate(
+            "(() => { const one = document.getElementById('canvas'), at ="
+            f" [x({time}), rowTop({task_number}) + rowHeight() / 2];"
+            " return [...one.getContext('2d').getImageData(at[0], at[1], 1, 1).data].slice(0, 3); })()"
+        )
+        for task_number, time in ((0, 12040), (1, 1250), (1, 7000), (1, 11500))
+    }
     assert drawn[0, 12040] == [0x00, 0x72, 0xB2]  # Real time.
     assert drawn[1, 1250] == [0x00, 0x9E, 0x73]  # Another one.
     assert drawn[1, 7000] == [0xC0, 0x2A, 0x1D]  # A deadline was missed.
@@ -156,8 +177,9 @@ def test_a_log_of_many_runs_is_drawn_soon(browser: Browser, tmp_path: Path) -> N
     browser.click("#all")
     assert text(browser, "view") == "0.000000 s to 199.999080 s"
     assert search(browser, "rate") == "200000 runs"
-    spent_ms = browser.evaluate("(() => { const then = performance.now(); draw();"
-                                " return performance.now() - then; })()")  # fmt: skip
+    spent_ms = browser.evaluate(
+        "(() => { const then = performance.now(); draw(); return performance.now() - then; })()"
+    )
     assert spent_ms < 1500
 
 

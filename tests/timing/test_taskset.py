@@ -82,41 +82,73 @@ def test_the_shipped_set_is_table_2() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ("budget_us = 50", "budget = 50",
-         "s.toml:10: task Gyro: budget: unknown key; did you mean budget_us?"),
-        ("[[task]]", "[[task]]\nperiod_ms = 1",
-         "s.toml:7: task Gyro: period_ms: unknown key; did you mean period_us?"),
-        ("[[chain]]", "[chains]",
-         "s.toml:19: chains: unknown key; did you mean chain?"),
-        ("guard_us = 10", "gaurd_us = 10",
-         "s.toml:4: scheduler: gaurd_us: unknown key; did you mean guard_us?"),
-        ("guard_us = 10", "guard_us = true",
-         "s.toml:4: scheduler: guard_us: expected to be a valid integer, found True"),
-        ("period_us = 1000", "period_us = 1000.0",
-         "s.toml:9: task Gyro: period_us: expected to be a valid integer, found 1000.0"),
-        ("period_us = 1000", "period_us = 0",
-         "s.toml:9: task Gyro: period_us: expected to be greater than or equal to 1, found 0"),
-        ("period_us = 1000", "period_us = 2147483648",
-         "s.toml:9: task Gyro: period_us: expected to be less than 2147483648, found 2147483648"),
-        ("budget_us = 50", "budget_us = 1001",
-         "s.toml:10: task Gyro: budget_us: expected at most the period, 1000"),
-        ("phase_us = 5", "phase_us = 20_000",
-         "s.toml:17: task Telemetry: phase_us: expected less than the period, 20000"),
-        ("priority = 1", 'priority = 1\nclass = "low"',
-         f"s.toml:12: task Telemetry: {ONE_CLASS}"),
-        ("priority = 1\n", "",
-         f"s.toml:12: task Telemetry: {ONE_CLASS}"),
-        ('path = ["Gyro",', 'path = ["Giro",',
-         's.toml:21: chain Gyro, ground: path: expected names of tasks; there is no "Giro"'),
-        ('path = ["Gyro",', 'path = ["Telemetry",',
-         "s.toml:21: chain Gyro, ground: path: expected each task at most once"),
-        ('name = "Telemetry"', 'name = "gyro"',
-         's.toml:13: task gyro: name: expected another than that of "Gyro" (as a C identifier)'),
-        ('name = "Gyro"\n', "",
-         "s.toml:6: task number 1: name: is missing"),
+        (
+            "budget_us = 50",
+            "budget = 50",
+            "s.toml:10: task Gyro: budget: unknown key; did you mean budget_us?",
+        ),
+        (
+            "[[task]]",
+            "[[task]]\nperiod_ms = 1",
+            "s.toml:7: task Gyro: period_ms: unknown key; did you mean period_us?",
+        ),
+        ("[[chain]]", "[chains]", "s.toml:19: chains: unknown key; did you mean chain?"),
+        (
+            "guard_us = 10",
+            "gaurd_us = 10",
+            "s.toml:4: scheduler: gaurd_us: unknown key; did you mean guard_us?",
+        ),
+        (
+            "guard_us = 10",
+            "guard_us = true",
+            "s.toml:4: scheduler: guard_us: expected to be a valid integer, found True",
+        ),
+        (
+            "period_us = 1000",
+            "period_us = 1000.0",
+            "s.toml:9: task Gyro: period_us: expected to be a valid integer, found 1000.0",
+        ),
+        (
+            "period_us = 1000",
+            "period_us = 0",
+            "s.toml:9: task Gyro: period_us: expected to be greater than or equal to 1, found 0",
+        ),
+        (
+            "period_us = 1000",
+            "period_us = 2147483648",
+            "s.toml:9: task Gyro: period_us: expected to be less than 2147483648, found 2147483648",
+        ),
+        (
+            "budget_us = 50",
+            "budget_us = 1001",
+            "s.toml:10: task Gyro: budget_us: expected at most the period, 1000",
+        ),
+        (
+            "phase_us = 5",
+            "phase_us = 20_000",
+            "s.toml:17: task Telemetry: phase_us: expected less than the period, 20000",
+        ),
+        ("priority = 1", 'priority = 1\nclass = "low"', f"s.toml:12: task Telemetry: {ONE_CLASS}"),
+        ("priority = 1\n", "", f"s.toml:12: task Telemetry: {ONE_CLASS}"),
+        (
+            'path = ["Gyro",',
+            'path = ["Giro",',
+            's.toml:21: chain Gyro, ground: path: expected names of tasks; there is no "Giro"',
+        ),
+        (
+            'path = ["Gyro",',
+            'path = ["Telemetry",',
+            "s.toml:21: chain Gyro, ground: path: expected each task at most once",
+        ),
+        (
+            'name = "Telemetry"',
+            'name = "gyro"',
+            's.toml:13: task gyro: name: expected another than that of "Gyro" (as a C identifier)',
+        ),
+        ('name = "Gyro"\n', "", "s.toml:6: task number 1: name: is missing"),
         ('name = "small"', "name = small", "s.toml:1: no TOML: Invalid value"),
     ],
-)  # fmt: skip
+)
 def test_an_error_names_file_line_field_and_what_was_expected(
     old: str, new: str, told: str
 ) -> None:
@@ -149,11 +181,17 @@ def in_task(line: str) -> str:
 @pytest.mark.parametrize(
     "text",
     [
-        "a = " + "[" * 5000, "a = " + "9" * 5000, "\0", "", "[",
-        in_task("period_us = 0x" + "f" * 4000), in_task("period_us" + ".a" * 4000 + " = 1"),
-        in_task("period_us = " + "[" * 150 + "]" * 150), in_task('"a' + "b" * 4000 + '" = 1'),
+        "a = " + "[" * 5000,
+        "a = " + "9" * 5000,
+        "\0",
+        "",
+        "[",
+        in_task("period_us = 0x" + "f" * 4000),
+        in_task("period_us" + ".a" * 4000 + " = 1"),
+        in_task("period_us = " + "[" * 150 + "]" * 150),
+        in_task('"a' + "b" * 4000 + '" = 1'),
     ],
-)  # fmt: skip
+)
 def test_hostile_texts_are_refused_in_words(text: str) -> None:
     with pytest.raises(ConfigError) as caught:
         parse(text)
@@ -169,8 +207,10 @@ def test_a_key_of_many_parts_costs_no_memory_for_each_of_them() -> None:
 def test_files_that_cannot_be_read_are_refused_in_words(tmp_path: Path) -> None:
     bad = tmp_path / "latin1.toml"
     bad.write_bytes(b'name = "x"\n# \xfc\n')
-    for path, told in ((tmp_path / "none.toml", "none.toml: cannot be read"),
-                       (bad, "latin1.toml:2: expected UTF-8")):  # fmt: skip
+    for path, told in (
+        (tmp_path / "none.toml", "none.toml: cannot be read"),
+        (bad, "latin1.toml:2: expected UTF-8"),
+    ):
         with pytest.raises(ToolError) as caught:
             read(path)
         assert told in str(caught.value)
@@ -179,9 +219,16 @@ def test_files_that_cannot_be_read_are_refused_in_words(tmp_path: Path) -> None:
 def test_lines_are_found_through_strings_and_brackets() -> None:
     text = '# c\na = """\n[x]\nb = 1\n"""\n[t]  # c\n"k y".z = [\n "]", # ]\n 2]\n[[u]]\nv={w=1}\n'
     assert line_index(text + "[[u]]\nv = '#'\n") == {
-        ("a",): 2, ("t",): 6, ("t", "k y"): 7, ("t", "k y", "z"): 7,
-        ("u",): 10, ("u", 0): 10, ("u", 0, "v"): 11, ("u", 1): 12, ("u", 1, "v"): 13,
-    }  # fmt: skip
+        ("a",): 2,
+        ("t",): 6,
+        ("t", "k y"): 7,
+        ("t", "k y", "z"): 7,
+        ("u",): 10,
+        ("u", 0): 10,
+        ("u", 0, "v"): 11,
+        ("u", 1): 12,
+        ("u", 1, "v"): 13,
+    }
 
 
 def test_fuzzed_files_never_end_in_a_traceback() -> None:

@@ -88,21 +88,41 @@ def test_promotion_wait_by_hand() -> None:
     ("old", "new", "status", "told"),
     [
         ("budget_us = 355", "budget_us = 355", 0, "urpilot: schedulable"),
-        ("budget_us = 355", "budget_us = 930", 1,
-         "not admitted: the kernel refuses it: GPS needs 962 us with the guard, and "
-         "Background IMU leaves 931 us"),
-        ("budget_us = 83", "budget_us = 900", 1,
-         "not admitted: the kernel refuses it: real-time budgets and twice the guard"),
-        ("reaction_limit_us = 10000", "reaction_limit_us = 3102", 1,
-         "not shown to be schedulable: path IMU, rate: E = 3103 us of 3102 us"),
-        ("budget_us = 71", "budget_us = 700", 1,
-         "urpilot: not shown to be schedulable: Background magnetometer has no bound within its "
-         "period of 10000 us: it would be "),
-        ("period_us = 2000\nbudget_us = 71\nphase_us = 249", "period_us = 80\nbudget_us = 72", 1,
-         "NOT schedulable: utilisation is 108.99 %, above 100 % (eq. 11)"),
+        (
+            "budget_us = 355",
+            "budget_us = 930",
+            1,
+            "not admitted: the kernel refuses it: GPS needs 962 us with the guard, and "
+            "Background IMU leaves 931 us",
+        ),
+        (
+            "budget_us = 83",
+            "budget_us = 900",
+            1,
+            "not admitted: the kernel refuses it: real-time budgets and twice the guard",
+        ),
+        (
+            "reaction_limit_us = 10000",
+            "reaction_limit_us = 3102",
+            1,
+            "not shown to be schedulable: path IMU, rate: E = 3103 us of 3102 us",
+        ),
+        (
+            "budget_us = 71",
+            "budget_us = 700",
+            1,
+            "urpilot: not shown to be schedulable: Background magnetometer has no bound within its "
+            "period of 10000 us: it would be ",
+        ),
+        (
+            "period_us = 2000\nbudget_us = 71\nphase_us = 249",
+            "period_us = 80\nbudget_us = 72",
+            1,
+            "NOT schedulable: utilisation is 108.99 %, above 100 % (eq. 11)",
+        ),
         ("budget_us = 355", "budget_us = 0", 2, ""),
     ],
-)  # fmt: skip
+)
 def test_exit_status_and_first_reason(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, status: int, told: str
 ) -> None:
@@ -199,8 +219,11 @@ def test_a_stale_table_fails_and_is_regenerated(
 
 def test_the_compiled_table_is_the_task_set(urpilot: TaskSet, tmp_path: Path) -> None:
     """Read back from a program, with a phase and every class."""
-    tasks = parse(URPILOT.read_text(encoding="utf-8").replace(
-        "phase_us = 1142", "phase_us = 1234").replace("100.0", "69.3"))  # fmt: skip
+    tasks = parse(
+        URPILOT.read_text(encoding="utf-8")
+        .replace("phase_us = 1142", "phase_us = 1234")
+        .replace("100.0", "69.3")
+    )
     ctable.write(ctable.table(tasks, "set.toml"), tmp_path)
     (tmp_path / "print.c").write_text(
         '#include "urpilot_tasks.h"\n#include <stdio.h>\n'
@@ -376,6 +399,8 @@ def test_no_room_for_phases_is_told() -> None:
 def test_the_program_ends_in_words_for_a_wrong_command_line() -> None:
     done = subprocess.run(
         [sys.executable, str(ROOT / "tools/keel"), "timing", "analyze"],
-        capture_output=True, text=True, check=False,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 2 and "are required: taskset" in done.stderr

@@ -18,8 +18,14 @@ from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
 
-FLAGS = ("--remote-debugging-pipe", "--disable-gpu", "--no-first-run", "--mute-audio",
-         "--disable-background-networking", "--disable-dev-shm-usage")  # fmt: skip
+FLAGS = (
+    "--remote-debugging-pipe",
+    "--disable-gpu",
+    "--no-first-run",
+    "--mute-audio",
+    "--disable-background-networking",
+    "--disable-dev-shm-usage",
+)
 # Chromium reads commands from descriptor 3 and writes answers to 4.
 START = 'exec "$@" 3<&{} 4>&{}'
 KEYS = {"Enter": (13, "\r")}  # Its code, and what it types.
@@ -35,12 +41,19 @@ class Browser:
         told, self._commands = os.pipe()
         self._answers, answered = os.pipe()
         root = ("--no-sandbox",) if os.geteuid() == 0 else ()
-        command = [*tools.command("chromium-headless-shell"), *FLAGS, *root,
-                   f"--user-data-dir={self._profile}", "about:blank"]  # fmt: skip
+        command = [
+            *tools.command("chromium-headless-shell"),
+            *FLAGS,
+            *root,
+            f"--user-data-dir={self._profile}",
+            "about:blank",
+        ]
         self._child = subprocess.Popen(
             ["bash", "-c", START.format(told, answered), "bash", *command],
-            pass_fds=(told, answered), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-        )  # fmt: skip
+            pass_fds=(told, answered),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         os.close(told)
         os.close(answered)
         self._rest = b""
@@ -104,8 +117,9 @@ class Browser:
 
     def evaluate(self, script: str) -> Any:
         """The value of an expression on the page; of a promise what it ends with."""
-        answer = self.send("Runtime.evaluate", expression=script, returnByValue=True,
-                           awaitPromise=True)  # fmt: skip
+        answer = self.send(
+            "Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True
+        )
         if "exceptionDetails" in answer:
             raise AssertionError(answer["exceptionDetails"])
         return answer["result"].get("value")
@@ -119,8 +133,14 @@ class Browser:
             " return [box.x + box.width / 2, box.y + box.height / 2]; })()"
         )
         for kind in ("mousePressed", "mouseReleased"):
-            self.send("Input.dispatchMouseEvent", type=kind, x=box[0], y=box[1], button="left",
-                      clickCount=1)  # fmt: skip
+            self.send(
+                "Input.dispatchMouseEvent",
+                type=kind,
+                x=box[0],
+                y=box[1],
+                button="left",
+                clickCount=1,
+            )
 
     def type(self, text: str) -> None:
         """Type into what has the focus."""
@@ -134,8 +154,13 @@ class Browser:
 
     def window(self, width: int, height: int, dark: bool = False) -> None:
         """Set the page's size and its colours."""
-        self.send("Emulation.setDeviceMetricsOverride", width=width, height=height,
-                  deviceScaleFactor=1, mobile=False)  # fmt: skip
+        self.send(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=False,
+        )
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.send("Emulation.setEmulatedMedia", features=[scheme])
 

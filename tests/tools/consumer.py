@@ -111,9 +111,14 @@ class ConsumerTest(unittest.TestCase):
     ) -> subprocess.CompletedProcess[str]:
         """Run a program in the project's folder."""
         return subprocess.run(
-            command, cwd=self.folder, env={**self.environment(), **variables}, text=True,
-            capture_output=True, timeout=TIMEOUT_S, check=False,
-        )  # fmt: skip
+            command,
+            cwd=self.folder,
+            env={**self.environment(), **variables},
+            text=True,
+            capture_output=True,
+            timeout=TIMEOUT_S,
+            check=False,
+        )
 
     def good(self, command: Sequence[str | Path], **variables: str) -> str:
         """Run a program that must succeed; what it wrote."""

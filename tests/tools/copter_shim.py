@@ -22,11 +22,27 @@ def copter_of(case: type[unittest.TestCase], shim: str) -> ctypes.CDLL:
     source, library = Path(scratch, "shim.c"), Path(scratch, "copter.so")
     source.write_text(shim, encoding="utf-8")
     folders = ("include", "bsp", "examples/urpilot", "examples/copter")
-    sources = [*sorted((ROOT / "examples/copter").glob("*.c")),
-               ROOT / "examples/urpilot/urpilot_tasks.c",
-               *(ROOT / f"bsp/common/{name}.c" for name in COMMON),
-               *sorted((ROOT / "src").rglob("*.c"))]  # fmt: skip
-    output_of(["gcc", "-std=c99", "-O1", "-Wall", "-Werror", "-shared", "-fPIC",
-               *(f"-I{ROOT / folder}" for folder in folders), source, *sources, "-lm",
-               "-o", library])  # fmt: skip
+    sources = [
+        *sorted((ROOT / "examples/copter").glob("*.c")),
+        ROOT / "examples/urpilot/urpilot_tasks.c",
+        *(ROOT / f"bsp/common/{name}.c" for name in COMMON),
+        *sorted((ROOT / "src").rglob("*.c")),
+    ]
+    output_of(
+        [
+            "gcc",
+            "-std=c99",
+            "-O1",
+            "-Wall",
+            "-Werror",
+            "-shared",
+            "-fPIC",
+            *(f"-I{ROOT / folder}" for folder in folders),
+            source,
+            *sources,
+            "-lm",
+            "-o",
+            library,
+        ]
+    )
     return ctypes.CDLL(str(library))

@@ -39,8 +39,7 @@ from keel.install.lock import Spec
 ROOT = Path(__file__).resolve().parents[2]
 
 # Those that faults of a project or of a run show in; the others speak of Keel's documents.
-PARTS = ("requirements", "trace", "formal", "strength", "tests", "object", "tools",
-         "configuration")  # fmt: skip
+PARTS = ("requirements", "trace", "formal", "strength", "tests", "object", "tools", "configuration")
 HARNESS = "proofs/widget/keel_widget_turn_harness.c"
 HEADER = "include/keel/rtos/widget.h"
 LEDGER = """\
@@ -70,13 +69,16 @@ harness = ["widget/keel_widget_turn_harness"]
 reason = "Nobody asked."
 """
 FILES = {
-    **{name: text for name, text in small.FILES.items()
-       if name not in ("include/keel/widget.h", "proofs/widget/turn_harness.c")},
+    **{
+        name: text
+        for name, text in small.FILES.items()
+        if name not in ("include/keel/widget.h", "proofs/widget/turn_harness.c")
+    },
     HEADER: small.HEADER,
-    HARNESS: "// covers: keel_widget_turn nudge push\n" + small.FILES[
-        "proofs/widget/turn_harness.c"],
+    HARNESS: "// covers: keel_widget_turn nudge push\n"
+    + small.FILES["proofs/widget/turn_harness.c"],
     "proofs/widget/goals.txt": "keel_widget_turn_ensures_WID_001_range qed\n"
-                               "keel_widget_turn_ensures_WID_001_turns qed\n",
+    "keel_widget_turn_ensures_WID_001_turns qed\n",
     "proofs/widget/assertions.txt": "keel_widget_turn_harness WID_001_turns: it turns\n",
     "proofs/units.toml": "",
     "specs/soundness.md": LEDGER,
@@ -87,7 +89,7 @@ FILES = {
     "specs/tools.toml": TOOL,
     "bsp/toy/board.toml": "",
     "tools/toolchain.lock.json": "{}",
-}  # fmt: skip
+}
 PINNED = Spec("cbmc", "deb", at_least="6.6", below="6.7")
 VERSION = "6.6.0"
 
@@ -100,8 +102,15 @@ def suites_of(suite: str, test: str) -> dict[str, Any]:
 
 def good_reports(root: Path) -> dict[str, dict[str, Any]]:
     """The report of each command."""
-    none = {"gaps": [], "excluded": [], "explained": [], "unused_exclusions": [],
-            "stale_reasons": [], "untraced": [], "files": {}}  # fmt: skip
+    none = {
+        "gaps": [],
+        "excluded": [],
+        "explained": [],
+        "unused_exclusions": [],
+        "stale_reasons": [],
+        "untraced": [],
+        "files": {},
+    }
     image = {"file": "keel.elf", "sha256": hashlib.sha256(b"image").hexdigest(), "size": 5}
     made = {"tools": {"cbmc": VERSION}}
     seeded = {"tool": "cbmc", "fault": "overflow", "how": "cbmc", "version": VERSION, "wrong": ""}
@@ -110,22 +119,36 @@ def good_reports(root: Path) -> dict[str, dict[str, Any]]:
         unit["cbmc"]["without_harness"] = {}
     return {
         "prove/report.json": {
-            **proved, "tools": {"cbmc": {"version": VERSION, "sha256": "01", "parts": []}}},
+            **proved,
+            "tools": {"cbmc": {"version": VERSION, "sha256": "01", "parts": []}},
+        },
         "test/report.json": suites_of("unit/widget", "it_loops"),
         "test-target/report.json": {
-            **suites_of("differential", "differential/widget"), **made, "vectors_per_unit": 9},
+            **suites_of("differential", "differential/widget"),
+            **made,
+            "vectors_per_unit": 9,
+        },
         "coverage/report.json": {
-            **none, "total": {"lines": [1, 1], "branches": [0, 0], "mcdc": [0, 0]}},
+            **none,
+            "total": {"lines": [1, 1], "branches": [0, 0], "mcdc": [0, 0]},
+        },
         "coverage-target/report.json": {**none, "total": {"seen": 2, "outcomes": 2}},
         "contracts-run/report.json": {"units": {}, "left_out": []},
         "opinion/report.json": {"harnesses": {}},
         "qualify/report.json": {"problems": [], "runs": [seeded]},
         "lint/report.json": made,
         "firmware/toy/report.json": {
-            **made, "flags": [*COMPILED_AS_PROVED, "-O2"], "link_flags": [], "load_address": 0,
-            "sources": {}, "checks": [], "regions": {}, "elf": image,
-            "binary": {**image, "file": "keel.bin"}},
-    }  # fmt: skip
+            **made,
+            "flags": [*COMPILED_AS_PROVED, "-O2"],
+            "link_flags": [],
+            "load_address": 0,
+            "sources": {},
+            "checks": [],
+            "regions": {},
+            "elf": image,
+            "binary": {**image, "file": "keel.bin"},
+        },
+    }
 
 
 class WholeProject(unittest.TestCase):
@@ -173,10 +196,15 @@ class WholeProject(unittest.TestCase):
             for unit in report["units"].values() if name.startswith("prove/") else ():
                 unit["seconds"] = dict.fromkeys(unit["seconds"], seconds)
             self.write_report(name, {VERDICT: "good", **report, STAMP: stamp})
-        for folder, suite, test in (("test", "unit/widget", "it_loops"),
-                                    ("test-target", "differential", "differential/widget")):
-            write_junit(self.root / "build" / folder / "junit.xml", "Keel",
-                        {suite: JUnitSuite({test: ""}, seconds)})  # fmt: skip
+        for folder, suite, test in (
+            ("test", "unit/widget", "it_loops"),
+            ("test-target", "differential", "differential/widget"),
+        ):
+            write_junit(
+                self.root / "build" / folder / "junit.xml",
+                "Keel",
+                {suite: JUnitSuite({test: ""}, seconds)},
+            )
 
     def write_report(self, name: str, report: dict[str, Any]) -> None:
         """Write a report as it is given."""

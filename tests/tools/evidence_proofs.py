@@ -32,11 +32,18 @@ def wp_of(unit: Unit) -> dict[str, Any]:
     """WP's half of a unit's entry: all goals that are listed are proved."""
     names = read_goals(unit.goal_list, "").names
     return {
-        "goals": len(names), "proved": len(names), "smoke_tests": 3, "accepted_warnings": {},
-        "not_proved_here": {}, "not_by_wp": {}, "by_cbmc": {},
-        "goal_list": [{"name": name, "status": "Valid", "prover": "CVC4 1.8", "target": "lemmas"}
-                      for name in names],
-    }  # fmt: skip
+        "goals": len(names),
+        "proved": len(names),
+        "smoke_tests": 3,
+        "accepted_warnings": {},
+        "not_proved_here": {},
+        "not_by_wp": {},
+        "by_cbmc": {},
+        "goal_list": [
+            {"name": name, "status": "Valid", "prover": "CVC4 1.8", "target": "lemmas"}
+            for name in names
+        ],
+    }
 
 
 def cbmc_of(unit: Unit) -> dict[str, Any]:
@@ -48,11 +55,16 @@ def cbmc_of(unit: Unit) -> dict[str, Any]:
         name, _, description = line.partition(" ")
         asserted[name].append({"name": "a", "description": description, "status": "SUCCESS"})
     harnesses = {
-        name: {"properties": len(found) + 2, "proved": len(found) + 2, "sound": True,
-               "assertions": found, "checks": "all",
-               "coverage": {"blocks": 30, "reached": 30 - unreached.get(f"{unit.name}/{name}", 0)}}
+        name: {
+            "properties": len(found) + 2,
+            "proved": len(found) + 2,
+            "sound": True,
+            "assertions": found,
+            "checks": "all",
+            "coverage": {"blocks": 30, "reached": 30 - unreached.get(f"{unit.name}/{name}", 0)},
+        }
         for name, found in asserted.items()
-    }  # fmt: skip
+    }
     wrong = {body.name: True for body in read_wrong_bodies(unit)}
     return {"properties": 9, "proved": 9, "harnesses": harnesses, "negative": {"list": wrong}}
 
@@ -61,24 +73,40 @@ def report_of(root: Path) -> dict[str, Any]:
     """A report of make prove by which all that the tree lists is proved."""
     units = {}
     bounds = [f"VOT_016_p{i}_v{j}" for i in range(3) for j in (1, 2)]
-    gappa_goals = {"voter": [*bounds, "VOT_017_agreement"],
-                   "reference": ["REF_003_end", "REF_010_square"],
-                   "attitude": ["ATT_010_length", "ATT_010_guard"],
-                   "cascade": ["CAS_011_left", "CAS_011_square"]}  # fmt: skip
+    gappa_goals = {
+        "voter": [*bounds, "VOT_017_agreement"],
+        "reference": ["REF_003_end", "REF_010_square"],
+        "attitude": ["ATT_010_length", "ATT_010_guard"],
+        "cascade": ["CAS_011_left", "CAS_011_square"],
+    }
     for unit in find_units(root).values():
         if unit.folder.is_dir():
             own = gappa_goals.get(unit.name, [])
-            gappa = [{"name": name, "bound": "2", "enclosure": "1", "status": "Valid"}
-                     for name in own]  # fmt: skip
+            gappa = [
+                {"name": name, "bound": "2", "enclosure": "1", "status": "Valid"} for name in own
+            ]
             wrong = {path.name: True for path in unit.wrong_statements}
             units[unit.name] = {
-                "problems": [], "determined": [], "seconds": {"wp/lemmas": 1.5},
-                "wp": wp_of(unit), "cbmc": cbmc_of(unit),
-                "gappa": {"goals": len(gappa), "proved": len(gappa), "goal_list": gappa,
-                          "negative": {"list": wrong}},
-            }  # fmt: skip
-    return {"verdict": "proved", "problems": [], "goals": 1, "proved": 1, "units": units,
-            STAMP: NOW}  # fmt: skip
+                "problems": [],
+                "determined": [],
+                "seconds": {"wp/lemmas": 1.5},
+                "wp": wp_of(unit),
+                "cbmc": cbmc_of(unit),
+                "gappa": {
+                    "goals": len(gappa),
+                    "proved": len(gappa),
+                    "goal_list": gappa,
+                    "negative": {"list": wrong},
+                },
+            }
+    return {
+        "verdict": "proved",
+        "problems": [],
+        "goals": 1,
+        "proved": 1,
+        "units": units,
+        STAMP: NOW,
+    }
 
 
 @cache

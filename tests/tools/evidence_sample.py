@@ -32,49 +32,107 @@ BOUNDS = "tasks: 8, as shipped\nperiods: 5 bits, since a release moves on"
 def requirements() -> Part:
     """What is wanted."""
     items = [
-        Item(kind="requirement", id=f"{unit[:3].upper()}-{number:03}", title=f"It shall {number}",
-             text="It shall count.\n\nAnd go on.", state="good", links=(f"unit:{unit}",))
-        for unit in ("queue", "voter") for number in range(1, 13)
-    ]  # fmt: skip
+        Item(
+            kind="requirement",
+            id=f"{unit[:3].upper()}-{number:03}",
+            title=f"It shall {number}",
+            text="It shall count.\n\nAnd go on.",
+            state="good",
+            links=(f"unit:{unit}",),
+        )
+        for unit in ("queue", "voter")
+        for number in range(1, 13)
+    ]
     units = [Item(kind="unit", id=unit, title=f"The {unit}") for unit in ("queue", "voter")]
-    return Part(name="requirements", title="Requirements", items=(*items, *units),
-                summary={"requirements": "24"})  # fmt: skip
+    return Part(
+        name="requirements",
+        title="Requirements",
+        items=(*items, *units),
+        summary={"requirements": "24"},
+    )
 
 
 def formal() -> Part:
     """What is proved."""
-    function = Item(kind="function", id="keel_queue_init", title="Empties a queue", text=CONTRACT,
-                    state="good", links=("unit:queue", "requirement:QUE-001"))  # fmt: skip
+    function = Item(
+        kind="function",
+        id="keel_queue_init",
+        title="Empties a queue",
+        text=CONTRACT,
+        state="good",
+        links=("unit:queue", "requirement:QUE-001"),
+    )
     other = Item(kind="function", id=LONG, title="The earliest", links=("unit:queue",))
-    harness = Item(kind="harness", id="queue/keel_queue_init_harness", title="Any queue",
-                   text=BOUNDS, state="good", facts={"unwound": "completely"},
-                   links=("function:keel_queue_init",))  # fmt: skip
+    harness = Item(
+        kind="harness",
+        id="queue/keel_queue_init_harness",
+        title="Any queue",
+        text=BOUNDS,
+        state="good",
+        facts={"unwound": "completely"},
+        links=("function:keel_queue_init",),
+    )
     goals = [
-        Item(kind="goal", id=f"queue/keel_queue_init_ensures_QUE_001_{number}", title="count is 0",
-             state="open" if number == 7 else "good", facts={"prover": "z3"},
-             links=("function:keel_queue_init", "requirement:QUE-001"))
+        Item(
+            kind="goal",
+            id=f"queue/keel_queue_init_ensures_QUE_001_{number}",
+            title="count is 0",
+            state="open" if number == 7 else "good",
+            facts={"prover": "z3"},
+            links=("function:keel_queue_init", "requirement:QUE-001"),
+        )
         for number in range(60)
-    ]  # fmt: skip
-    asserted = Item(kind="goal", id="queue/keel_queue_init_harness/QUE_001", title="as the model",
-                    state="good", links=("harness:queue/keel_queue_init_harness",))  # fmt: skip
-    assumption = Item(kind="assumption", id="A-01", title="Pointers are valid",
-                      links=("function:keel_queue_init",))  # fmt: skip
-    table = Table(title="Bounds", columns=("harness", "bound", "why"), note="Not the time it took.",
-                  rows=(("harness:queue/keel_queue_init_harness", "8", "as shipped " * 30),))
-    return Part(name="formal", title="Formal verification", tables=(table,),
-                items=(function, other, harness, *goals, asserted, assumption))  # fmt: skip
+    ]
+    asserted = Item(
+        kind="goal",
+        id="queue/keel_queue_init_harness/QUE_001",
+        title="as the model",
+        state="good",
+        links=("harness:queue/keel_queue_init_harness",),
+    )
+    assumption = Item(
+        kind="assumption",
+        id="A-01",
+        title="Pointers are valid",
+        links=("function:keel_queue_init",),
+    )
+    table = Table(
+        title="Bounds",
+        columns=("harness", "bound", "why"),
+        note="Not the time it took.",
+        rows=(("harness:queue/keel_queue_init_harness", "8", "as shipped " * 30),),
+    )
+    return Part(
+        name="formal",
+        title="Formal verification",
+        tables=(table,),
+        items=(function, other, harness, *goals, asserted, assumption),
+    )
 
 
 def sample_tests() -> Part:
     """What was sample_tests, and what the tests do not see."""
     ran = [
-        Item(kind="test", id=f"unit/test_queue/test_{number}_adds", title="It adds", state="good",
-             links=("requirement:QUE-001", "unit:queue"))
+        Item(
+            kind="test",
+            id=f"unit/test_queue/test_{number}_adds",
+            title="It adds",
+            state="good",
+            links=("requirement:QUE-001", "unit:queue"),
+        )
         for number in range(9)
-    ]  # fmt: skip
-    mutants = [Item(kind="mutant", id=f"queue/{number}", title="< for <=", state="good",
-                    text="- a < b\n+ a <= b", links=("function:keel_queue_init",))
-               for number in range(8)]  # fmt: skip
+    ]
+    mutants = [
+        Item(
+            kind="mutant",
+            id=f"queue/{number}",
+            title="< for <=",
+            state="good",
+            text="- a < b\n+ a <= b",
+            links=("function:keel_queue_init",),
+        )
+        for number in range(8)
+    ]
     return Part(name="tests", title="Tests", items=(*ran, *mutants), text="One.\n\nTwo.")
 
 
@@ -114,8 +172,9 @@ class PartTest(unittest.TestCase):
 
     def make(self) -> Part:
         """The part."""
-        return type(self).maker(Context(ROOT, self.build, self.build / "work", STAMP,
-                                        lambda _: None))  # fmt: skip
+        return type(self).maker(
+            Context(ROOT, self.build, self.build / "work", STAMP, lambda _: None)
+        )
 
     def problem(self) -> str:
         """The one problem of the part."""

@@ -84,7 +84,13 @@ class AttitudeNorm(unittest.TestCase):
 
     def test_what_the_code_turns_is_clamped_and_asked_of(self) -> None:
         body = " ".join(body_of("rotate_attitude").split())
-        self.assertIn("half = clamped_vector(scaled_vector(attitude->scale.half_step, rate), "
-                      "KEEL_ATTITUDE_HALF_ANGLE_LIMIT);", body)  # fmt: skip
-        self.assertIn("next = turned_quaternion(attitude->quaternion, half); "
-                      "if (keel_attitude_is_unit(next))", body)  # fmt: skip
+        self.assertIn(
+            "half = clamped_vector(scaled_vector(attitude->scale.half_step, rate), "
+            "KEEL_ATTITUDE_HALF_ANGLE_LIMIT);",
+            body,
+        )
+        self.assertIn(
+            "next = turned_quaternion(attitude->quaternion, half); "
+            "if (keel_attitude_is_unit(next))",
+            body,
+        )

@@ -261,8 +261,11 @@ class Report(Budgets):
         host = {"verdict": "failed", "sets": {"21": {"no_task": {"mean": 33.5}}}}
         self.report.write_text(json.dumps(host))
         self.file.write_text(GOOD)
-        effect = {"side_effect": figures} if isinstance(figures, Exception) else {
-            "return_value": figures}  # fmt: skip
+        effect = (
+            {"side_effect": figures}
+            if isinstance(figures, Exception)
+            else {"return_value": figures}
+        )
         self.said = io.StringIO()
         with (
             contextlib.redirect_stdout(self.said),

@@ -38,19 +38,40 @@ class Target(unittest.TestCase):
         tools.ensure("firmware", "fatfs")
         fatfs = Path(tools.command("fatfs")[0]) / "fatfs/source"
         compiler = tools.command("arm-none-eabi-gcc")
-        flags = [*TARGET_FLAGS, *FLAGS, "-Os", f"-I{ROOT}/include", f"-I{ROOT}/bsp",
-                 f"-I{ROOT}/bsp/fatfs", "-isystem", str(fatfs)]  # fmt: skip
+        flags = [
+            *TARGET_FLAGS,
+            *FLAGS,
+            "-Os",
+            f"-I{ROOT}/include",
+            f"-I{ROOT}/bsp",
+            f"-I{ROOT}/bsp/fatfs",
+            "-isystem",
+            str(fatfs),
+        ]
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "main.c").write_text(PROGRAM)
             objects = []
-            for source, more in ((folder / "main.c", WARNINGS), (fatfs / "ff.c", ("-w",)),
-                                 *((ROOT / one, WARNINGS) for one in SOURCES)):  # fmt: skip
+            for source, more in (
+                (folder / "main.c", WARNINGS),
+                (fatfs / "ff.c", ("-w",)),
+                *((ROOT / one, WARNINGS) for one in SOURCES),
+            ):
                 objects.append(folder / f"{source.stem}.o")
                 output_of([*compiler, *flags, *more, "-c", source, "-o", objects[-1]])
             image = folder / "image.elf"
-            output_of([*compiler, *TARGET_FLAGS, "-nostartfiles", "-Wl,--gc-sections,-e,main",
-                       *objects, "-lc", "-o", image])  # fmt: skip
+            output_of(
+                [
+                    *compiler,
+                    *TARGET_FLAGS,
+                    "-nostartfiles",
+                    "-Wl,--gc-sections,-e,main",
+                    *objects,
+                    "-lc",
+                    "-o",
+                    image,
+                ]
+            )
             symbols = output_of(["arm-none-eabi-nm", image]).split()
             self.assertIn("f_expand", symbols)
             self.assertEqual({"malloc", "calloc", "free", "_sbrk", "f_mkfs"} & set(symbols), set())

@@ -52,8 +52,14 @@ class Dearest(unittest.TestCase):
         name, function = FUNCTION
         unit = find_units()[name]
         [target] = [one for one in targets.targets(unit) if one.function == function]
-        prover = wp.Wp(self.tools.frama_c(), self.runner, ROOT, self.scratch, None,
-                       self.tools.command("ocamlfind"))  # fmt: skip
+        prover = wp.Wp(
+            self.tools.frama_c(),
+            self.runner,
+            ROOT,
+            self.scratch,
+            None,
+            self.tools.command("ocamlfind"),
+        )
         recorded = read_goals(unit.goal_list, str(unit.goal_list)).provers
         result = prover.prove(target, recorded=recorded)
         self.assertEqual(result.problems, [])
@@ -63,7 +69,8 @@ class Dearest(unittest.TestCase):
         name, harness = HARNESS
         unit = find_units()[name]
         path = unit.folder / f"{harness}.c"
-        checker = cbmc.Cbmc(self.tools.goto_cc(), self.tools.command("cbmc"), self.runner, ROOT,
-                            self.scratch)  # fmt: skip
+        checker = cbmc.Cbmc(
+            self.tools.goto_cc(), self.tools.command("cbmc"), self.runner, ROOT, self.scratch
+        )
         result = checker.prove(read_harness(unit, path))
         self.assertEqual(result.problems, [])

@@ -10,8 +10,12 @@ from keel.timing import campaign
 
 def flight(fault: str, latched_s: float, worst: float) -> campaign.Flight:
     """A flight as the program writes it."""
-    return {"fault": fault, "first_latch_s": latched_s, "all_latched_s": latched_s,
-            "worst_a": worst}  # fmt: skip
+    return {
+        "fault": fault,
+        "first_latch_s": latched_s,
+        "all_latched_s": latched_s,
+        "worst_a": worst,
+    }
 
 
 class Table(unittest.TestCase):

@@ -21,9 +21,16 @@ NEAR = re.compile(r"is_side_near\(fence, ([^,]+), ([^)]+)\)")
 HYPOTHESIS = re.compile(r"\|([LxvAT])\| <= (0x[0-9a-f.]+p[+-]\d+)")
 
 # The code's names in Gappa's; `way` is what near_sides gives for it.
-NAMES = {"cascade->fence.gain": "gain", "fence->gain": "gain", "fence->half_gain": "half",
-         "config->acceleration": "A", "config->reaction_s": "T", "fence->reaction_s": "T",
-         "speed": "v", "way": "(L - x)"}  # fmt: skip
+NAMES = {
+    "cascade->fence.gain": "gain",
+    "fence->gain": "gain",
+    "fence->half_gain": "half",
+    "config->acceleration": "A",
+    "config->reaction_s": "T",
+    "fence->reaction_s": "T",
+    "speed": "v",
+    "way": "(L - x)",
+}
 ANY_NAME = re.compile("|".join(rf"\b{re.escape(name)}\b" for name in NAMES))
 
 
@@ -59,10 +66,17 @@ class CascadeFence(unittest.TestCase):
         tested = dict(CONSTANT.findall(body_of("is_side_near")))
         square = re.fullmatch(r"\(fastest > 0\.0f\) \? \((.+)\) : 0\.0f", tested["square"])
         assert square
-        code = {"gain": made["gain"], "half": made["half_gain"], "left": tested["left"],
-                "fastest": tested["fastest"], "square": square[1]}  # fmt: skip
-        self.assertEqual({name: parsed(value) for name, value in ROUNDED.findall(text)},
-                         {name: as_gappa(value) for name, value in code.items()})  # fmt: skip
+        code = {
+            "gain": made["gain"],
+            "half": made["half_gain"],
+            "left": tested["left"],
+            "fastest": tested["fastest"],
+            "square": square[1],
+        }
+        self.assertEqual(
+            {name: parsed(value) for name, value in ROUNDED.findall(text)},
+            {name: as_gappa(value) for name, value in code.items()},
+        )
         self.assertEqual(sorted(SINGLE.findall(text)), ["A", "L", "T", "v", "x"])
         self.assertEqual(set(tested), {"fastest", "left", "square"})
 
@@ -84,8 +98,9 @@ class CascadeFence(unittest.TestCase):
         found = HYPOTHESIS.findall(GAPPA.read_text("utf-8"))
         bounds = {name: float.fromhex(bound) for name, bound in found}
         self.assertEqual(len(found), len(bounds))
-        self.assertEqual([bounds["L"], bounds["A"], bounds["T"]],
-                         [constant(name) for name in
-                          ("DISTANCE_MAX", "ACCELERATION_MAX", "REACTION_MAX_S")])  # fmt: skip
+        self.assertEqual(
+            [bounds["L"], bounds["A"], bounds["T"]],
+            [constant(name) for name in ("DISTANCE_MAX", "ACCELERATION_MAX", "REACTION_MAX_S")],
+        )
         self.assertEqual(bounds["x"], bounds["L"])
         self.assertGreaterEqual(bounds["v"], constant("SPEED_MAX"))

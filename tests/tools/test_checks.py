@@ -13,14 +13,7 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from test_prove import (
-    ASSERTED,
-    HARNESS,
-    TreeTest,
-    WholeRunCase,
-    cbmc_output,
-    item,
-)
+from test_prove import ASSERTED, HARNESS, TreeTest, WholeRunCase, cbmc_output, item
 
 from keel.audit import completeness as rules
 from keel.base.jobs import Finished, Runner
@@ -85,8 +78,11 @@ class Directive(TreeTest):
 
     def test_the_choice_is_part_of_the_key(self) -> None:
         checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
-        keys = {engines.cbmc_key(self.read(text), checker, self.root, {"z3": version})
-                for text in (HARNESS, ALONE) for version in ("4.8.12", "4.9")}  # fmt: skip
+        keys = {
+            engines.cbmc_key(self.read(text), checker, self.root, {"z3": version})
+            for text in (HARNESS, ALONE)
+            for version in ("4.8.12", "4.9")
+        }
         self.assertEqual(len(keys), 4)
 
     def test_the_solvers_are_those_whose_versions_are_in_every_key(self) -> None:
@@ -117,8 +113,7 @@ class Directive(TreeTest):
         self.assertIn("covers helper with all checks", problem)
         (self.root / "src/rtos/copy.c").write_text("", encoding="utf-8")
         copied = "// sources: src/rtos/copy.c\n" + CASE
-        self.assertEqual(len(harness.unchecked([alone, self.case(copied)])),
-                         2)  # fmt: skip
+        self.assertEqual(len(harness.unchecked([alone, self.case(copied)])), 2)
         lazy = self.case("// checks: assertions\n" + CASE)
         self.assertEqual(len(harness.unchecked([alone, lazy])), 3)
 
@@ -126,8 +121,10 @@ class Directive(TreeTest):
         model = self.root / "specs/model/box.c"
         model.parent.mkdir(parents=True)
         model.write_text(MODEL, encoding="utf-8")
-        alone = self.read("// sources: src/rtos/box.c specs/model/box.c\n"
-                          + ALONE.replace("covers: ", "covers: twice model_box_put "))  # fmt: skip
+        alone = self.read(
+            "// sources: src/rtos/box.c specs/model/box.c\n"
+            + ALONE.replace("covers: ", "covers: twice model_box_put ")
+        )
         self.assertEqual(harness.unchecked([alone, self.case(CASE)]), [])
         model.write_text(
             MODEL.replace("    *box", "    __CPROVER_assume(0);\n    *box"), encoding="utf-8"
@@ -139,8 +136,15 @@ class Report(WholeRunCase):
     def test_such_harnesses_are_named_and_refused_without_another(self) -> None:
         (self.unit.folder / "keel_box_put_harness.c").write_text(ALONE, encoding="utf-8")
         located = json.loads(json.dumps(ASSERTED).replace('"9"', '"10"'))
-        covered = [{"goals": [self.block("keel_box_put_harness", "8-11"),
-                              self.block("keel_box_put", "15")], "goalsCovered": 2}]  # fmt: skip
+        covered = [
+            {
+                "goals": [
+                    self.block("keel_box_put_harness", "8-11"),
+                    self.block("keel_box_put", "15"),
+                ],
+                "goalsCovered": 2,
+            }
+        ]
         self.play(cbmc=json.loads(cbmc_output(located)), cover=covered)
         status, output, report = self.prove()
         self.assertEqual(status, 1)
@@ -155,8 +159,11 @@ class Report(WholeRunCase):
     def block(function: str, lines: str) -> dict[str, Any]:
         file = "proofs/box/keel_box_put_harness.c" if "harness" in function else "src/rtos/box.c"
         location = {"file": file, "function": function, "line": lines.split("-")[0]}
-        return {"basicBlockLines": {file: {function: lines}}, "sourceLocation": location,
-                "status": "satisfied"}  # fmt: skip
+        return {
+            "basicBlockLines": {file: {function: lines}},
+            "sourceLocation": location,
+            "status": "satisfied",
+        }
 
 
 class Solver(unittest.TestCase):
@@ -185,10 +192,14 @@ def cbmc_tools() -> Toolchain | None:
 
 
 SUM = HARNESS.replace("--external-sat-solver cadical", "--z3 --fpa").replace(
-    "    keel_box_put(&box, 7);\n", "    float f;\n    float g = f;\n    keel_box_put(&box, 7);\n"
-    '    __CPROVER_assert(!(f + 1.0f > g + 1.0f), "BOX_002: the same sum");\n'
-)  # fmt: skip
-HARD = SUM.replace("\nvoid", """
+    "    keel_box_put(&box, 7);\n",
+    "    float f;\n    float g = f;\n    keel_box_put(&box, 7);\n"
+    '    __CPROVER_assert(!(f + 1.0f > g + 1.0f), "BOX_002: the same sum");\n',
+)
+HARD = (
+    SUM.replace(
+        "\nvoid",
+        """
 static int differ(float f, float g)
 {
     if (f * g < g * f) {
@@ -197,7 +208,11 @@ static int differ(float f, float g)
     return 0;
 }
 
-void""").replace("float g = f;", "float g;").replace("!(f + 1.0f > g + 1.0f)", "differ(f, g) == 0")
+void""",
+    )
+    .replace("float g = f;", "float g;")
+    .replace("!(f + 1.0f > g + 1.0f)", "differ(f, g) == 0")
+)
 
 
 @unittest.skipUnless(cbmc_tools(), "needs CBMC")
@@ -239,8 +254,13 @@ class PlayedSolver(TreeTest):
         self.assertEqual((result.covered, result.blocks), (1, 1))
 
     def test_anything_else_is_a_failure(self) -> None:
-        for answer in ("echo unknown", "kill -SEGV $$", "exit 1", "echo timeout",
-                       "echo '(error \"no such logic\")'; echo unsat"):  # fmt: skip
+        for answer in (
+            "echo unknown",
+            "kill -SEGV $$",
+            "exit 1",
+            "echo timeout",
+            "echo '(error \"no such logic\")'; echo unsat",
+        ):
             with self.subTest(answer):
                 self.assertIn("CBMC did not finish", self.prove(answer))
 

@@ -53,9 +53,13 @@ class ImageTest(unittest.TestCase):
                 firmware.build(cls.tools, board, [], cls.root)
 
     def run_image(
-        self, seconds: float = 0.2, keys: str = "", board: str = "nucleo_f767zi",
-        broken: str = "", step_us: int = 4,
-    ) -> Chip:  # fmt: skip
+        self,
+        seconds: float = 0.2,
+        keys: str = "",
+        board: str = "nucleo_f767zi",
+        broken: str = "",
+        step_us: int = 4,
+    ) -> Chip:
         """Run an image; keys come a millisecond apart from 0.16 s on."""
         pressed = [(160_000 + 1000 * i, key) for i, key in enumerate(keys)]
         return chip_model.simulate(self.tools, self.root, board, seconds, pressed, broken, step_us)
@@ -121,9 +125,14 @@ class ImageTest(unittest.TestCase):
     def test_the_brown_out_level_is_set_by_hand_and_once(self) -> None:
         delivered = 0xFFFF_AAFD
         board = chip_model.simulate(
-            self.tools, self.root, "nucleo_f767zi", 0.2, [(170_000, "b")], step_us=4,
+            self.tools,
+            self.root,
+            "nucleo_f767zi",
+            0.2,
+            [(170_000, "b")],
+            step_us=4,
             options=delivered,
-        )  # fmt: skip
+        )
         self.assertIn("b within 2 s sets 2.7 V for good\r\nbrown-out status 0", board.text)
         self.assertEqual(board.options, 0xFFFF_AAF1)  # The level, and nothing else.
         board = chip_model.simulate(
@@ -149,8 +158,9 @@ class ImageTest(unittest.TestCase):
     def check_log(self, log: list[tuple[float, State]], bitten: bool) -> None:
         states = [state for _, state in log]
         last = ["low", "floats", "low"]  # The image ends them itself, before it resets.
-        self.assertEqual(states, ["floats", "low", Pulse(1000, 2500),
-                                  *(["floats", *last] if bitten else last)])  # fmt: skip
+        self.assertEqual(
+            states, ["floats", "low", Pulse(1000, 2500), *(["floats", *last] if bitten else last)]
+        )
         self.assertEqual(log[1][0], 0)  # No time goes by between the reset and low outputs.
         self.assertGreaterEqual(log[-2][0] - log[-3][0], 6000)
         self.assertEqual(log[-1][0], log[-2][0])
@@ -376,8 +386,9 @@ class PulsesTest(SmallApplication):
     NAME, MAIN = "pulser", PULSER
 
     def builder(self, name: str) -> firmware.Builder:
-        return firmware.Builder(self.tools, read_board(self.root, name),
-                                self.root / "build" / name, self.root)  # fmt: skip
+        return firmware.Builder(
+            self.tools, read_board(self.root, name), self.root / "build" / name, self.root
+        )
 
     def check(self, builder: firmware.Builder) -> None:
         """Run the program once, up to its reset, 36.4 ms after its start, and past it; look at what
@@ -389,8 +400,16 @@ class PulsesTest(SmallApplication):
         model = Chip(*chip_model.CONSOLES[board.name], "", sockets)
         Processor(self.tools, image.binary.read_bytes(), board.load_address, model).run(65_000)
         for number, log in enumerate(model.outputs.log):
-            expected = ["floats", "low", Pulse(1000 + 100 * number, 2500), "low",
-                        Pulse(1500, 2500), "low", "floats", "low"]  # fmt: skip
+            expected = [
+                "floats",
+                "low",
+                Pulse(1000 + 100 * number, 2500),
+                "low",
+                Pulse(1500, 2500),
+                "low",
+                "floats",
+                "low",
+            ]
             self.assertEqual([state for _, state in log][: len(expected)], expected, number)
             self.assertEqual(log[1][0], 0, "low from the reset on")
             self.assertGreaterEqual(log[6][0] - log[5][0], 6000, "the hold before a reset")
@@ -401,39 +420,64 @@ class PulsesTest(SmallApplication):
                 self.check(self.builder(name))
 
     MISTAKES = (
-        ("bsp/fmuv5/pins.c", "KEEL_OUTPUT(E, 14u, 1u, TIM1, CH4)",
-         "KEEL_OUTPUT(E, 14u, 1u, TIM1, CH1)"),
-        ("bsp/fmuv5/pins.c", "KEEL_OUTPUT(H, 6u, 9u, TIM12, CH1)",
-         "KEEL_OUTPUT(H, 6u, 2u, TIM12, CH1)"),
+        (
+            "bsp/fmuv5/pins.c",
+            "KEEL_OUTPUT(E, 14u, 1u, TIM1, CH4)",
+            "KEEL_OUTPUT(E, 14u, 1u, TIM1, CH1)",
+        ),
+        (
+            "bsp/fmuv5/pins.c",
+            "KEEL_OUTPUT(H, 6u, 9u, TIM12, CH1)",
+            "KEEL_OUTPUT(H, 6u, 2u, TIM12, CH1)",
+        ),
         ("bsp/fmuv5/pins.c", ".output_count = 8u", ".output_count = 7u"),
         ("bsp/stm32f767/target/chip.c", "keel_bits_enable(clocks[i].enable, clocks[i].bit);", ""),
-        ("bsp/stm32f767/target/chip.c", "RCC_APB1ENR_TIM12EN, false}",
-         "RCC_APB1ENR_TIM12EN, true}"),
-        ("bsp/stm32f767/target/chip.c", "{(keel_tim_t *)TIM12_BASE, 2u, false}",
-         "{(keel_tim_t *)TIM12_BASE, 4u, false}"),
-        ("bsp/stm32f767/target/chip.c", "{(keel_tim_t *)TIM4_BASE, 4u, false}",
-         "{(keel_tim_t *)TIM4_BASE, 4u, true}"),
-        ("bsp/stm32f767/target/chip.c",
-         "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
-         "(void)PINS->outputs[i].pin;"),
-        ("bsp/stm32f767/target/chip.c",
-         "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
-         "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, true);"),
+        (
+            "bsp/stm32f767/target/chip.c",
+            "RCC_APB1ENR_TIM12EN, false}",
+            "RCC_APB1ENR_TIM12EN, true}",
+        ),
+        (
+            "bsp/stm32f767/target/chip.c",
+            "{(keel_tim_t *)TIM12_BASE, 2u, false}",
+            "{(keel_tim_t *)TIM12_BASE, 4u, false}",
+        ),
+        (
+            "bsp/stm32f767/target/chip.c",
+            "{(keel_tim_t *)TIM4_BASE, 4u, false}",
+            "{(keel_tim_t *)TIM4_BASE, 4u, true}",
+        ),
+        (
+            "bsp/stm32f767/target/chip.c",
+            "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
+            "(void)PINS->outputs[i].pin;",
+        ),
+        (
+            "bsp/stm32f767/target/chip.c",
+            "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
+            "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, true);",
+        ),
         ("bsp/stm32f767/target/chip.c", "#define HOLD_TURNS 1296000u", "#define HOLD_TURNS 12960u"),
         ("bsp/stm32f767/target/chip.c", "#define PWM_RATE_HZ 400u", "#define PWM_RATE_HZ 399u"),
         ("bsp/cortex_m7/reset.c", "keel_board_outputs_hold();", ""),
         ("bsp/cortex_m7/reset.c", "keel_board_outputs_off();", ""),
-        ("bsp/stm32f767/pwm.c", "keel_pin_output(outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
-         "(void)outputs[i].pin;"),
+        (
+            "bsp/stm32f767/pwm.c",
+            "keel_pin_output(outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
+            "(void)outputs[i].pin;",
+        ),
         ("bsp/stm32f767/pwm.c", "*pulse_of(output->timer, output->channel) = 0u;", ""),
         ("bsp/stm32f767/pwm.c", "output->timer->tim->EGR = TIM_EGR_UG;", ""),
         ("bsp/stm32f767/pwm.c", "if (keel_pin_is_alternate(outputs[0].pin)) {", "if (false) {"),
         ("bsp/stm32f767/pwm.c", "GATE_SHUT | TIM_BDTR_MOE;", "GATE_SHUT;"),
-        ("bsp/stm32f767/pwm.c", "FIELD(TIM_CCMR1_OC1M, PWM_MODE_1) | TIM_CCMR1_OC1PE",
-         "FIELD(TIM_CCMR1_OC1M, PWM_MODE_1)"),
+        (
+            "bsp/stm32f767/pwm.c",
+            "FIELD(TIM_CCMR1_OC1M, PWM_MODE_1) | TIM_CCMR1_OC1PE",
+            "FIELD(TIM_CCMR1_OC1M, PWM_MODE_1)",
+        ),
         ("bsp/stm32f767/pwm.c", "TIM_CCER_CC1E | TIM_CCER_CC2E;", "TIM_CCER_CC1E;"),
         ("bsp/stm32f767/pwm.c", "TIM_CR1_ARPE | TIM_CR1_CEN", "TIM_CR1_ARPE"),
-    )  # fmt: skip
+    )
 
     def test_mistakes_in_the_boards_code_are_noticed(self) -> None:
         """Each is put into the sources, built and run; the tests above must fail."""
@@ -508,8 +552,14 @@ class BoardTest(unittest.TestCase):
         self.timer = {"TIM1": chip.TIM1, "TIM4": chip.TIM4, "TIM12": chip.TIM12}[
             name.split()[1].split("_")[0]
         ]
-        for offset, value in ((0x18, 0x6868), (0x20, 0x11), (0x28, 15), (0x2C, 2499), (0x14, 1),
-                              (0, 1)):  # fmt: skip
+        for offset, value in (
+            (0x18, 0x6868),
+            (0x20, 0x11),
+            (0x28, 15),
+            (0x2C, 2499),
+            (0x14, 1),
+            (0, 1),
+        ):
             self.board.write(self.timer + offset, value)
 
     def give(self, function: int) -> None:
@@ -620,10 +670,13 @@ class BoardTest(unittest.TestCase):
         self.board.write(chip.SPI2 + 0xC, 0x9F)
         port = chip.GPIOA + 8 * 0x400
         for address, value, reason in (
-            (RCC + 0x40, 0, "no clock"), (port, 0b10_10_00_00, "pin is not its own"),
-            (port + 0x20, 0x5560, "pin is not its own"), (chip.SPI2, 0x345, "mode 0 or 3"),
-            (chip.SPI2 + 4, 0xF00, "not of eight bits"), (chip.SPI2, 0x307, "is off"),
-        ):  # fmt: skip
+            (RCC + 0x40, 0, "no clock"),
+            (port, 0b10_10_00_00, "pin is not its own"),
+            (port + 0x20, 0x5560, "pin is not its own"),
+            (chip.SPI2, 0x345, "mode 0 or 3"),
+            (chip.SPI2 + 4, 0xF00, "not of eight bits"),
+            (chip.SPI2, 0x307, "is off"),
+        ):
             self.memory()
             self.board.write(address, value)
             with self.assertRaisesRegex(ModelError, reason):
@@ -674,10 +727,13 @@ class BoardTest(unittest.TestCase):
     def test_bytes_to_the_barometer_that_must_not_be(self) -> None:
         port = chip.GPIOA + 4 * 0x400
         for address, value, reason in (
-            (RCC + 0x44, 0, "no clock"), (port, 2 << 4 | 2 << 12, "pin is not its own"),
-            (port + 0x24, 6 << 20, "pin is not its own"), (chip.SPI4, 0x355, "mode 0 or 3"),
-            (chip.SPI4, 0x34F, "at 27 MHz"), (chip.SPI4, 0x317, "is off"),
-        ):  # fmt: skip
+            (RCC + 0x44, 0, "no clock"),
+            (port, 2 << 4 | 2 << 12, "pin is not its own"),
+            (port + 0x24, 6 << 20, "pin is not its own"),
+            (chip.SPI4, 0x355, "mode 0 or 3"),
+            (chip.SPI4, 0x34F, "at 27 MHz"),
+            (chip.SPI4, 0x317, "is off"),
+        ):
             self.barometer()
             self.board.write(address, value)
             with self.assertRaisesRegex(ModelError, reason):
@@ -817,8 +873,9 @@ class BoardTest(unittest.TestCase):
             self.assertEqual(self.board.read(chip.SDMMC1 + 0x14), ready)
         self.begin(1, 2)
         self.order(17, 7)
-        self.assertEqual([self.board.read(chip.SDMMC1 + 0x80) for _ in range(128)],
-                         list(range(128)))  # fmt: skip
+        self.assertEqual(
+            [self.board.read(chip.SDMMC1 + 0x80) for _ in range(128)], list(range(128))
+        )
         self.assertEqual(self.board.read(chip.SDMMC1 + 0x34), 1 << 8 | 1 << 10)
 
     def test_a_slot_that_is_not_as_it_must_be(self) -> None:
@@ -854,13 +911,17 @@ class BoardTest(unittest.TestCase):
             ("nothing is sent", lambda: write(0x80, 1)),
             ("while it is empty", lambda: self.board.read(chip.SDMMC1 + 0x80)),
             ("expects none", lambda: [self.begin(1, 0), write(0x80, 1)]),
-            ("use other lines", lambda: [self.order(24, 7), self.begin(1, 0, 0x101),
-                                         write(0x80, 1)]),
+            (
+                "use other lines",
+                lambda: [self.order(24, 7), self.begin(1, 0, 0x101), write(0x80, 1)],
+            ),
             ("of another length", lambda: self.order(13, 0xB368_0000, 3)),
-            ("data of the one before", lambda: [self.begin(1, 2), self.order(17, 7),
-                                                self.order(13, 0xB368_0000)]),
+            (
+                "data of the one before",
+                lambda: [self.begin(1, 2), self.order(17, 7), self.order(13, 0xB368_0000)],
+            ),
             ("last sector", lambda: [self.begin(2, 2), self.order(18, 1023)]),
-        )  # fmt: skip
+        )
         for reason, wrong in cases:
             with self.subTest(reason):
                 self.identified()
@@ -868,9 +929,10 @@ class BoardTest(unittest.TestCase):
                     wrong()
 
     def test_a_card_of_no_size(self) -> None:
-        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(
-            io.StringIO()
-        ) as err:
+        with (
+            tempfile.TemporaryDirectory() as folder,
+            contextlib.redirect_stderr(io.StringIO()) as err,
+        ):
             path = Path(folder) / "card.img"
             self.assertEqual(chip_model.main(["fmuv5", "--card", str(path)]), 2)
             path.write_bytes(bytes(1000))

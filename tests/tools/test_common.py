@@ -52,9 +52,11 @@ class Git(FolderTest):
 
     # Neither the user's settings nor those of CI may make a strange owner trusted.
     ALONE: ClassVar = {
-        "HOME": "/nowhere", "XDG_CONFIG_HOME": "/nowhere", "GIT_CONFIG_NOSYSTEM": "1",
+        "HOME": "/nowhere",
+        "XDG_CONFIG_HOME": "/nowhere",
+        "GIT_CONFIG_NOSYSTEM": "1",
         "GIT_CONFIG_COUNT": "0",
-    }  # fmt: skip
+    }
 
     def setUp(self) -> None:
         super().setUp()
@@ -64,8 +66,9 @@ class Git(FolderTest):
 
     def real(self, *words: str) -> str:
         who = ["-c", "user.name=a", "-c", "user.email=a@b"]
-        done = subprocess.run(["git", *who, *words], cwd=self.folder, check=True,
-                              capture_output=True, text=True)  # fmt: skip
+        done = subprocess.run(
+            ["git", *who, *words], cwd=self.folder, check=True, capture_output=True, text=True
+        )
         return done.stdout
 
     def clone(self) -> str:
@@ -109,8 +112,11 @@ class Git(FolderTest):
         with mock.patch.dict(os.environ):
             os.environ.pop("SUDO_UID", None)  # Whom git trusts, too.
             self.refused("git fails: fatal: detected dubious ownership")
-            trusted = {"GIT_CONFIG_COUNT": "1", "GIT_CONFIG_KEY_0": "safe.directory",
-                       "GIT_CONFIG_VALUE_0": "*"}  # fmt: skip
+            trusted = {
+                "GIT_CONFIG_COUNT": "1",
+                "GIT_CONFIG_KEY_0": "safe.directory",
+                "GIT_CONFIG_VALUE_0": "*",
+            }
             with mock.patch.dict(os.environ, trusted):
                 self.assertEqual(commit_of(self.folder), commit)
 
@@ -238,8 +244,9 @@ class Files(FolderTest):
 
     def test_writers_do_not_disturb_each_other(self) -> None:
         path = self.folder / "x"
-        writers = [threading.Thread(target=write_text, args=(path, text * 100_000))
-                   for text in "abcd"]  # fmt: skip
+        writers = [
+            threading.Thread(target=write_text, args=(path, text * 100_000)) for text in "abcd"
+        ]
         for writer in writers:
             writer.start()
         for writer in writers:
@@ -276,20 +283,20 @@ class Config(FolderTest):
     def test_each_mistake_is_a_line_with_file_line_key_and_reason(self) -> None:
         cases = {
             GOOD + "limit = 12\n": "file.toml:4: entry MD-1: limit: expected to be less than or "
-                                   "equal to 9, found 12",
+            "equal to 9, found 12",
             GOOD + 'limit = "2"\n': "file.toml:4: entry MD-1: limit: expected to be a valid "
-                                    "integer, found '2'",
+            "integer, found '2'",
             GOOD + "limt = 2\n": "file.toml:4: entry MD-1: limt: unknown key; did you mean limit?",
             GOOD.replace("why", ""): "file.toml:3: entry MD-1: reason: expected to have at least "
-                                     "1 character, found ''",
+            "1 character, found ''",
             '\n[[entry]]\nid = "MD-1"\n': "file.toml:2: entry MD-1: reason: is missing",
             f"{GOOD}[[entry]]\n": "file.toml:4: entry number 2: id: is missing\n"
-                                  "file.toml:4: entry number 2: reason: is missing",
+            "file.toml:4: entry number 2: reason: is missing",
             "entries = 1\n": "file.toml:1: entries: unknown key; did you mean entry?",
             "entry = 1\n": "file.toml:1: entry: expected to be a valid list, found 1",
             "a = 1\nb = \n": "file.toml:2: no TOML: Invalid value",
             "a = [": "file.toml:1: no TOML: Invalid value",
-        }  # fmt: skip
+        }
         for text, wanted in cases.items():
             with self.subTest(text):
                 self.assertEqual(self.refusal(text), wanted)
@@ -343,8 +350,10 @@ class Builds(FolderTest):
     def test_a_program_is_built_from_files_and_folders(self) -> None:
         path = self.build.program("prog", ["main.c", "lib"])
         self.assertEqual(run([path]).status, 0)
-        objects = {path.relative_to(self.folder).as_posix(): source
-                   for path, source in self.build.sources().items()}  # fmt: skip
+        objects = {
+            path.relative_to(self.folder).as_posix(): source
+            for path, source in self.build.sources().items()
+        }
         self.assertEqual(objects, {"out/obj/main.o": "main.c", "out/obj/lib/two.o": "lib/two.c"})
 
     def test_a_file_is_compiled_once_for_the_same_flags(self) -> None:
@@ -383,8 +392,10 @@ class Builds(FolderTest):
 
 class Reports(FolderTest):
     def test_suites_tests_and_failures_are_there(self) -> None:
-        suites = {"unit/x": JUnitSuite({"good": "", "bad": "x.c:3: bad\n\x1b[0m<&>"}, 1.5),
-                  "y": JUnitSuite({"z": ""}, properties={"how": "a"})}  # fmt: skip
+        suites = {
+            "unit/x": JUnitSuite({"good": "", "bad": "x.c:3: bad\n\x1b[0m<&>"}, 1.5),
+            "y": JUnitSuite({"z": ""}, properties={"how": "a"}),
+        }
         path = self.folder / "junit.xml"
         write_junit(path, "Keel", suites)
         whole = ElementTree.parse(path).getroot()
@@ -393,5 +404,6 @@ class Reports(FolderTest):
         [failure] = whole.iter("failure")
         self.assertEqual(failure.get("message"), "x.c:3: bad")
         self.assertEqual(failure.text, "x.c:3: bad\n?[0m<&>")
-        self.assertEqual([case.get("name") for case in whole.iter("testcase")],
-                         ["good", "bad", "z"])  # fmt: skip
+        self.assertEqual(
+            [case.get("name") for case in whole.iter("testcase")], ["good", "bad", "z"]
+        )

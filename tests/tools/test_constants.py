@@ -347,9 +347,7 @@ class RulesTest(unittest.TestCase):
     def test_equal_bits_of_two_sets(self) -> None:
         text = header("0x01u", "0x02u", "0x04u")
         other = header("0x08u", "0x10u", "0x04u").replace("SIDE", "EDGE")
-        self.assertEqual(
-            problems(f"{text}\n{other}"), ["KEEL_SIDE_C and KEEL_EDGE_C are one bit"]
-        )  # fmt: skip
+        self.assertEqual(problems(f"{text}\n{other}"), ["KEEL_SIDE_C and KEEL_EDGE_C are one bit"])
 
     def test_but_not_of_two_words(self) -> None:
         text = header("0x01u", "0x02u", "0x04u")
@@ -363,7 +361,7 @@ class RulesTest(unittest.TestCase):
     def test_equal_numbers(self) -> None:
         self.assertEqual(
             problems(header("5", "1u", "2", "1")), ["KEEL_SIDE_B and KEEL_SIDE_D are one number"]
-        )  # fmt: skip
+        )
 
     def test_a_gap(self) -> None:
         [only] = problems(header("0", "1u", "3"))

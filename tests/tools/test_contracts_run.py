@@ -51,16 +51,23 @@ class Words(unittest.TestCase):
 
     def test_clauses_that_are_left_out(self) -> None:
         found = [(item["file"], item["line"], item["construct"]) for item in ignored_in(SAID)]
-        self.assertEqual(found, [
-            ("include/keel/x.h", 105,
-             "logic functions or predicates with no definition nor reads clause"),
-            ("src/rtos/load.c", 9, "assigns clause in behavior"),
-        ])  # fmt: skip
+        self.assertEqual(
+            found,
+            [
+                (
+                    "include/keel/x.h",
+                    105,
+                    "logic functions or predicates with no definition nor reads clause",
+                ),
+                ("src/rtos/load.c", 9, "assigns clause in behavior"),
+            ],
+        )
 
     def test_a_violation_has_its_place(self) -> None:
         told = violated(Ended(-6, BROKEN))
-        self.assertEqual(told, "include/keel/x.h:155: Error: Postcondition failed: "
-                               "The failing predicate is:")  # fmt: skip
+        self.assertEqual(
+            told, "include/keel/x.h:155: Error: Postcondition failed: The failing predicate is:"
+        )
 
     def test_no_test_is_a_failure(self) -> None:
         whole = Run()

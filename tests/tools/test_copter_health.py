@@ -142,8 +142,9 @@ class CopterHealth(unittest.TestCase):
         self.at(2.5)
         self.breathe(96325.0, 2154)
         self.assertEqual(self.pressure(), (2500, 963.25, 0.0, 2154, 0))
-        self.assertEqual((self.copter.air_pressure(), self.copter.air_temperature()),
-                         (96325.0, 2154))  # fmt: skip
+        self.assertEqual(
+            (self.copter.air_pressure(), self.copter.air_temperature()), (96325.0, 2154)
+        )
 
     def test_HEA_001_ends_of_the_scale(self) -> None:
         for told in (-4000, -1, 0, 1, 8500, -32768, 32767):
@@ -194,8 +195,7 @@ class CopterHealth(unittest.TestCase):
         for run, (supply, temperature) in enumerate([(1, 1), (1, 0), (0, 1), (0, 0), (1, 1)], 1):
             asked = copter.measure(supply, 3300 + run, temperature, 4000 - run)
             self.assertEqual(asked, run)  # Once a run.
-            self.assertEqual((copter.has_supply(), copter.has_temperature()),
-                             (supply, temperature))  # fmt: skip
+            self.assertEqual((copter.has_supply(), copter.has_temperature()), (supply, temperature))
             self.assertEqual(copter.supply(), 3300 + run if supply else 0)
             self.assertEqual(copter.temperature(), 4000 - run if temperature else 0)
 
@@ -216,8 +216,13 @@ class CopterHealth(unittest.TestCase):
             self.assertEqual(self.turns(2), [("stack_free", 0), ("chip_mv", told)])
 
     def test_HEA_004_ends_of_the_stack(self) -> None:
-        for free, told in ((0, 0), (2**31 - 2,) * 2, (2**31 - 1,) * 2, (2**31, 2**31 - 1),
-                           (2**32 - 1, 2**31 - 1)):  # fmt: skip
+        for free, told in (
+            (0, 0),
+            (2**31 - 2,) * 2,
+            (2**31 - 1,) * 2,
+            (2**31, 2**31 - 1),
+            (2**32 - 1, 2**31 - 1),
+        ):
             self.copter.stack(ctypes.c_uint32(free))
             self.assertEqual(self.named(), ("stack_free", told))
 
@@ -251,8 +256,13 @@ class CopterHealth(unittest.TestCase):
         return blocked
 
     def test_HEA_005_ends_of_what_a_ground_has(self) -> None:
-        for pressure, blocked in ((54999.0, True), (55000.0, False), (101325.0, False),
-                                  (110000.0, False), (110001.0, True)):  # fmt: skip
+        for pressure, blocked in (
+            (54999.0, True),
+            (55000.0, False),
+            (101325.0, False),
+            (110000.0, False),
+            (110001.0, True),
+        ):
             self.assertEqual(self.blocked(pressure), blocked, pressure)
 
     def test_HEA_005_half_of_any_grounds_pressure(self) -> None:

@@ -109,15 +109,32 @@ class CopterParameters(unittest.TestCase):
         shim, library = Path(cls.scratch, "shim.c"), Path(cls.scratch, "copter.so")
         shim.write_text(SHIM, encoding="utf-8")
         folders = ("include", "bsp", "examples/copter", "examples/copter_in_plant")
-        copter = [ROOT / "examples/copter" / f"{name}.c"
-                  for name in ("parameters", "parameter_table", "parameter_store", "settings")]
-        sources = [*copter, ROOT / "examples/copter_in_plant/file_medium.c",
-                   ROOT / "bsp/common/slots.c",
-                   *sorted((ROOT / "src/middleware").glob("*.c")),
-                   *sorted((ROOT / "src/flight").glob("*.c"))]  # fmt: skip
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC",
-                   *(f"-I{ROOT / folder}" for folder in folders), shim, *sources, "-lm",
-                   "-o", library])  # fmt: skip
+        copter = [
+            ROOT / "examples/copter" / f"{name}.c"
+            for name in ("parameters", "parameter_table", "parameter_store", "settings")
+        ]
+        sources = [
+            *copter,
+            ROOT / "examples/copter_in_plant/file_medium.c",
+            ROOT / "bsp/common/slots.c",
+            *sorted((ROOT / "src/middleware").glob("*.c")),
+            *sorted((ROOT / "src/flight").glob("*.c")),
+        ]
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                *(f"-I{ROOT / folder}" for folder in folders),
+                shim,
+                *sources,
+                "-lm",
+                "-o",
+                library,
+            ]
+        )
         cls.copter = ctypes.CDLL(str(library))
         for name in ("critical", "thrust", "idle_thrust"):
             getattr(cls.copter, name).restype = ctypes.c_double

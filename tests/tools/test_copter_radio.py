@@ -100,8 +100,13 @@ class Line:
     @classmethod
     def of_frames(cls, protocol: int, data: bytes, every_us: int, until_us: int) -> Line:
         begins = range(0, until_us, every_us)
-        return cls([(begin + BYTE_US[protocol] * (at + 1), byte)
-                    for begin in begins for at, byte in enumerate(data)])  # fmt: skip
+        return cls(
+            [
+                (begin + BYTE_US[protocol] * (at + 1), byte)
+                for begin in begins
+                for at, byte in enumerate(data)
+            ]
+        )
 
     @classmethod
     def of_edges(cls, until_us: int) -> Line:
@@ -112,8 +117,10 @@ class Line:
         """What has come and was not read, each with the time since the one before."""
         end = bisect.bisect_right(self.sent, (now_us, 255))
         at = [0, *(us for us, _ in self.sent)]
-        return (bytes(byte for _, byte in self.sent[self.read : end]),
-                [at[i + 1] - at[i] for i in range(self.read, end)])  # fmt: skip
+        return (
+            bytes(byte for _, byte in self.sent[self.read : end]),
+            [at[i + 1] - at[i] for i in range(self.read, end)],
+        )
 
 
 def corpus(name: str) -> bytes:
@@ -169,8 +176,11 @@ class CopterRadio(unittest.TestCase):
         return 0
 
     def test_each_protocol_is_found(self) -> None:
-        for protocol, name, enough in ((SBUS, "frsky_knob_110", 20), (CRSF, "edgetx_2_11", 5),
-                                       (IBUS, "fs_ia6b", 5)):  # fmt: skip
+        for protocol, name, enough in (
+            (SBUS, "frsky_knob_110", 20),
+            (CRSF, "edgetx_2_11", 5),
+            (IBUS, "fs_ia6b", 5),
+        ):
             with self.subTest(name):
                 self.start(ANY)
                 self.assertEqual(self.found_after(protocol, corpus(name)), enough)
@@ -182,8 +192,10 @@ class CopterRadio(unittest.TestCase):
         for _ in range(3 + 5):
             self.edges([1500, 1500, 1000, 1500, 1000, 1500, 2000, 1500, 8500])
         self.assertEqual(self.copter.protocol(), PPM)
-        self.assertEqual([self.copter.channel(at) for at in range(9)],
-                         [1500, 1500, 1000, 1500, 1000, 1500, 2000, 1500, 0])  # fmt: skip
+        self.assertEqual(
+            [self.copter.channel(at) for at in range(9)],
+            [1500, 1500, 1000, 1500, 1000, 1500, 2000, 1500, 0],
+        )
 
     def run_once(self, line: Line, now_us: int, cost_us: int) -> int:
         """A run of background radio alone, in which a byte costs so much; what it left."""
@@ -223,11 +235,14 @@ class CopterRadio(unittest.TestCase):
         second gets to it, and what has come by then is read while the next come. Costs are those
         counted on the Cortex-M7 (docs/copter.md), rounded up: 2 us a byte, and 1."""
         for protocol, name, every_us, found_ms, enough in (
-            (SBUS, "frsky_knob_110", 6000, 120, 20), (SBUS, "frsky_knob_110", 9000, 180, 20),
-            (SBUS, "frsky_knob_110", 14000, 270, 20), (CRSF, "edgetx_2_11", 2000, 20, 5),
-            (CRSF, "edgetx_2_11", 4000, 20, 5), (CRSF, "edgetx_2_11", 20000, 90, 5),
+            (SBUS, "frsky_knob_110", 6000, 120, 20),
+            (SBUS, "frsky_knob_110", 9000, 180, 20),
+            (SBUS, "frsky_knob_110", 14000, 270, 20),
+            (CRSF, "edgetx_2_11", 2000, 20, 5),
+            (CRSF, "edgetx_2_11", 4000, 20, 5),
+            (CRSF, "edgetx_2_11", 20000, 90, 5),
             (IBUS, "fs_ia6b", 7000, 40, 5),
-        ):  # fmt: skip
+        ):
             with self.subTest(name, every_us=every_us):
                 self.start(ANY)
                 line = Line.of_frames(protocol, corpus(name), every_us, 900_000)
@@ -280,11 +295,13 @@ class CopterRadio(unittest.TestCase):
         lost[23] = 0x0C
         flags = bytearray(corpus("frsky_100"))
         flags[23] = 0x40
-        for data, words in ((zeros, "refused: a stick is beyond its range"),
-                            (bytes(lost), "the receiver has lost the transmitter"),
-                            (bytes(flags), "refused: flags that SBUS has none of"),
-                            (b"\x55" * 25, "no frames: protocol, baud or inversion?"),
-                            (corpus("frsky_100"), "heard by SBUS")):  # fmt: skip
+        for data, words in (
+            (zeros, "refused: a stick is beyond its range"),
+            (bytes(lost), "the receiver has lost the transmitter"),
+            (bytes(flags), "refused: flags that SBUS has none of"),
+            (b"\x55" * 25, "no frames: protocol, baud or inversion?"),
+            (corpus("frsky_100"), "heard by SBUS"),
+        ):
             with self.subTest(words):
                 self.start(SBUS)
                 self.assertEqual(self.words(), "listening")

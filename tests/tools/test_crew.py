@@ -136,8 +136,9 @@ class Sent(TreeTest):
 
     def test_orders_are_of_one_function(self) -> None:
         groups = orders(self.jobs)
-        self.assertEqual(sorted(place for group in groups for place in group),
-                         list(range(len(self.jobs))))  # fmt: skip
+        self.assertEqual(
+            sorted(place for group in groups for place in group), list(range(len(self.jobs)))
+        )
         for group in groups:
             self.assertEqual(len({self.found[place].function for place in group}), 1)
             self.assertLessEqual(len(group), 6)
@@ -183,10 +184,17 @@ class Sent(TreeTest):
         distributed: Any = importlib.import_module("distributed")
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        with mock.patch.object(tempfile, "tempdir", folder.name), distributed.LocalCluster(
-            n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None,
-            protocol="tcp", host="127.0.0.1",
-        ) as cluster:  # fmt: skip
+        with (
+            mock.patch.object(tempfile, "tempdir", folder.name),
+            distributed.LocalCluster(
+                n_workers=1,
+                threads_per_worker=2,
+                processes=False,
+                dashboard_address=None,
+                protocol="tcp",
+                host="127.0.0.1",
+            ) as cluster,
+        ):
             yield cluster.scheduler_address
 
     @unittest.skipUnless(dask_packages(), "needs the packages for Dask")

@@ -74,8 +74,20 @@ class Frames(unittest.TestCase):
         shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
         shim.write_text(SHIM)
         units = [ROOT / f"src/middleware/{unit}.c" for unit in ("crsf", "framing", "crc")]
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
-                   shim, *units, "-o", built])  # fmt: skip
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                f"-I{ROOT / 'include'}",
+                shim,
+                *units,
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
 
     def setUp(self) -> None:
@@ -103,13 +115,29 @@ class Frames(unittest.TestCase):
 
     def link_frame(self) -> tuple[bytes, Said]:
         any_byte = self.random.randrange
-        said = (any_byte(256), any_byte(256), any_byte(101), any_byte(-128, 128), any_byte(2),
-                any_byte(3))  # fmt: skip
-        names = ("uplink_rssi_ant_1", "uplink_rssi_ant_2", "uplink_link_quality", "uplink_snr",
-                 "diversity_active_antenna", "rf_mode")  # fmt: skip
+        said = (
+            any_byte(256),
+            any_byte(256),
+            any_byte(101),
+            any_byte(-128, 128),
+            any_byte(2),
+            any_byte(3),
+        )
+        names = (
+            "uplink_rssi_ant_1",
+            "uplink_rssi_ant_2",
+            "uplink_link_quality",
+            "uplink_snr",
+            "diversity_active_antenna",
+            "rf_mode",
+        )
         payload = dict(zip(names, said, strict=True))
-        payload |= {"uplink_tx_power": any_byte(7), "downlink_rssi": any_byte(256),
-                    "downlink_link_quality": any_byte(101), "downlink_snr": -5}  # fmt: skip
+        payload |= {
+            "uplink_tx_power": any_byte(7),
+            "downlink_rssi": any_byte(256),
+            "downlink_link_quality": any_byte(101),
+            "downlink_snr": -5,
+        }
         return bytes(self.handling.crsf_build_frame(self.types.LINK_STATISTICS, payload)), said
 
     def other_frame(self) -> tuple[bytes, Said]:

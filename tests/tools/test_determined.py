@@ -154,23 +154,30 @@ class Equality(DeterminedTest):
         self.assertEqual(self.problems(), [])
         found = determined.of_tree(self.root)
         self.assertEqual([one.by for one in found], ["equality", "equality"])
-        self.assertEqual(determined.summary(found),
-                         "determined: 1 of 2 functions for every valid state, 1 within a bound"
-                         " (1 of them with WP's clauses on every field beyond it)")  # fmt: skip
+        self.assertEqual(
+            determined.summary(found),
+            "determined: 1 of 2 functions for every valid state, 1 within a bound"
+            " (1 of them with WP's clauses on every field beyond it)",
+        )
 
     def test_what_a_harness_narrows_is_listed(self) -> None:
         bounds = self.outcome().harnesses["keel_box_put_harness"]
         self.assertEqual(bounds, ["BOX_SIDES = 2 (4 is shipped)", "more > 0u", "any_bits(8u)"])
         row = determined.as_markdown(determined.of_tree(self.root))
-        self.assertIn("| keel_box_put | within a bound; WP's clauses name every field beyond it |"
-                      " keel_box_put_harness | BOX_SIDES = 2 (4 is shipped); more > 0u;",
-                      row)  # fmt: skip
+        self.assertIn(
+            "| keel_box_put | within a bound; WP's clauses name every field beyond it |"
+            " keel_box_put_harness | BOX_SIDES = 2 (4 is shipped); more > 0u;",
+            row,
+        )
 
     def test_a_model_must_be_declared_with_the_same_types(self) -> None:
         self.change("model/box.h", "model_box_put(", "model_box_fill(")
         self.assert_found("specs/model/box.h declares no model_box_put")
-        for old, new in (("uint32_t more", "uint16_t more"), ("int32_t model", "int model"),
-                         ("const keel_box_t *c", "keel_box_t *c")):  # fmt: skip
+        for old, new in (
+            ("uint32_t more", "uint16_t more"),
+            ("int32_t model", "int model"),
+            ("const keel_box_t *c", "keel_box_t *c"),
+        ):
             with self.subTest(new):
                 self.change("model/box.h", old, new)
                 self.assert_found("has other types than keel_box_")
@@ -185,7 +192,7 @@ class Equality(DeterminedTest):
             ("box_same(&box", "lid_same(&box"): "lid_same does not compare two keel_box_t",
             ("put(&model", "put(&box"): "both are given one object",
             ("put(&model, more", "put(&model, 1u"): "the model is given 1u, the function more",
-        }  # fmt: skip
+        }
         for (old, new), why in cases.items():
             with self.subTest(new):
                 self.change("put_harness.c", old, new)
@@ -269,8 +276,11 @@ class Equality(DeterminedTest):
                     self.assert_found(why)
                 else:
                     self.assertEqual(self.problems(), [])
-        for old, new in (("any_below(SIDES)", "any_below(1u)"), ("any_below(SIDES)", "3u"),
-                         ("int32_t status;", "int32_t status;\n\n    x = 0u;")):  # fmt: skip
+        for old, new in (
+            ("any_below(SIDES)", "any_below(1u)"),
+            ("any_below(SIDES)", "3u"),
+            ("int32_t status;", "int32_t status;\n\n    x = 0u;"),
+        ):
             with self.subTest(new):
                 self.change("put_harness.c", old, new)
                 self.assertNotEqual(self.problems(), [])
@@ -310,13 +320,19 @@ class Sameness(DeterminedTest):
             (" && (a->name == b->name)", ""): "lid_same: keel_lid_t.name is not compared",
             (" && lid_same(&a->lid, &b->lid)", ""): "keel_box_t.lid is not compared by a function",
             ("&& lid_same", "&& any_same"): "keel_box_t.lid is not compared by a function",
-            ("float_same(a->angle, b->angle)", "(a->angle == b->angle)"):
-                "keel_lid_t.angle is not compared by float_same",
-            ("(a->side[i] == b->side[i])", "(a->side[0] == b->side[0])"):
-                "keel_box_t.side is not compared at all of its BOX_SIDES places",
-            ("lid_same(&a->lid, &b->lid)", "float_same(a->lid.angle, b->lid.angle)"):
-                "keel_box_t.lid is not compared by a function",
-        }  # fmt: skip
+            (
+                "float_same(a->angle, b->angle)",
+                "(a->angle == b->angle)",
+            ): "keel_lid_t.angle is not compared by float_same",
+            (
+                "(a->side[i] == b->side[i])",
+                "(a->side[0] == b->side[0])",
+            ): "keel_box_t.side is not compared at all of its BOX_SIDES places",
+            (
+                "lid_same(&a->lid, &b->lid)",
+                "float_same(a->lid.angle, b->lid.angle)",
+            ): "keel_box_t.lid is not compared by a function",
+        }
         for (old, new), why in cases.items():
             with self.subTest(new):
                 self.change("same_box.h", old, new)
@@ -374,21 +390,28 @@ class Sameness(DeterminedTest):
             self.problems()
 
     def test_floats_are_compared_by_the_one_function_for_them(self) -> None:
-        for old, new in (("__CPROVER_equal(a, b)", "true"), ("__CPROVER_equal(a, b)", "a == b"),
-                         ("__CPROVER_equal(a, b)", "__CPROVER_equal(a, a)")):  # fmt: skip
+        for old, new in (
+            ("__CPROVER_equal(a, b)", "true"),
+            ("__CPROVER_equal(a, b)", "a == b"),
+            ("__CPROVER_equal(a, b)", "__CPROVER_equal(a, a)"),
+        ):
             with self.subTest(new):
                 self.change("same_box.h", old, new)
                 self.assert_found("float_same is not that of")
 
     def test_a_comparer_is_defined_once(self) -> None:
-        self.write("proofs/common/same_box.h", SAME + """
+        self.write(
+            "proofs/common/same_box.h",
+            SAME
+            + """
 #ifdef BOX_SIDES
 static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
 {
     return a->name == b->name;
 }
 #endif
-""")  # fmt: skip
+""",
+        )
         self.assert_found("lid_same is defined more than once")
 
     def test_an_array_may_be_compared_at_each_place_by_number(self) -> None:
@@ -402,11 +425,15 @@ static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
         part = SAME.replace("(a->count == b->count) && ", "part_same(a, b) && ").replace(
             "static bool box",
             "static bool part_same(const keel_box_t *x, const keel_box_t *y)\n{\n"
-            "    return x->count == y->count;\n}\n\nstatic bool box")  # fmt: skip
+            "    return x->count == y->count;\n}\n\nstatic bool box",
+        )
         self.write("proofs/common/same_box.h", part)
         self.assertEqual(self.problems(), [])
-        for old, new in (("x->count == y", "x->count <= y"), ("part_same(a, b)", "part_same(a, a)"),
-                         ("return x->c", "return true || x->c")):  # fmt: skip
+        for old, new in (
+            ("x->count == y", "x->count <= y"),
+            ("part_same(a, b)", "part_same(a, a)"),
+            ("return x->c", "return true || x->c"),
+        ):
             with self.subTest(new):
                 self.write("proofs/common/same_box.h", part.replace(old, new))
                 self.assertNotEqual(self.problems(), [])
@@ -430,9 +457,11 @@ static bool lid_same(const keel_lid_t *a, const keel_lid_t *b)
 class Extent(DeterminedTest):
     """For which states a harness shows what it shows."""
 
-    FREE = PUT.replace("// defines: -DBOX_SIDES=2u\n", "").replace(
-        "    __CPROVER_assume(more > 0u);\n\n", ""
-    ).replace("any_bits(8u)", "nondet_u32()")  # fmt: skip
+    FREE = (
+        PUT.replace("// defines: -DBOX_SIDES=2u\n", "")
+        .replace("    __CPROVER_assume(more > 0u);\n\n", "")
+        .replace("any_bits(8u)", "nondet_u32()")
+    )
 
     def put(self, *changes: tuple[str, str], name: str = "keel_box_put_harness") -> None:
         """A harness that narrows nothing, but for changes."""
@@ -456,8 +485,10 @@ class Extent(DeterminedTest):
             ("    const uint32_t more = any_below(16u);", "any_below(16u)"),
             ("    const uint32_t more = nondet_u32() % 16u;", "nondet_u32() % 16u"),
             ("    const uint32_t more = nondet_u32() & 15u;", "nondet_u32() & 15u"),
-            ("    const uint32_t more = nondet_bool() ? 1u : MANY;",
-             "more = nondet_bool() ? 1u : 7"),
+            (
+                "    const uint32_t more = nondet_bool() ? 1u : MANY;",
+                "more = nondet_bool() ? 1u : 7",
+            ),
             (f"{start}\n    __CPROVER_assume((more < MANY) && f(more));", "more < 7"),
             (f"{start}\n    uint8_t room[4];\n\n    fill(room, more);", ""),
         ):
@@ -490,20 +521,27 @@ class Extent(DeterminedTest):
                 self.assertEqual(self.bounds(), [bound])
 
     def test_a_stand_in_is_looked_into_and_must_be_shown_to_keep_its_contract(self) -> None:
-        self.write("proofs/common/same_box.h", SAME + """
+        self.write(
+            "proofs/common/same_box.h",
+            SAME
+            + """
 float keel_box_angle_stand_in(const keel_box_t *box)
 {
     __CPROVER_assume(box->count < 3u);
     __CPROVER_assume(keel_box_angle_does(box));
     return nondet_float();
 }
-""")  # fmt: skip
+""",
+        )
         self.put(("// covers", "// replaces: keel_box_angle\n// covers"))
-        self.assertEqual(self.bounds(), [
-            "box->count < 3u in keel_box_angle_stand_in",
-            "keel_box_angle by its contract, shown within nothing: no harness asserts"
-            " keel_box_angle_does",
-        ])  # fmt: skip
+        self.assertEqual(
+            self.bounds(),
+            [
+                "box->count < 3u in keel_box_angle_stand_in",
+                "keel_box_angle by its contract, shown within nothing: no harness asserts"
+                " keel_box_angle_does",
+            ],
+        )
 
     def test_a_precondition_narrows_nothing(self) -> None:
         valid = "keel_box_put_may(&box, more) && box_valid_here(&box)"
@@ -518,8 +556,13 @@ float keel_box_angle_stand_in(const keel_box_t *box)
         self.put()
         decider = determined.Decider(self.root)
         decider.every()
-        self.assertEqual(decider.problems(), ["proofs/preconditions.toml: nothing in"
-                         " keel_box_put_harness says 'more < 3u' any more, remove it"])  # fmt: skip
+        self.assertEqual(
+            decider.problems(),
+            [
+                "proofs/preconditions.toml: nothing in"
+                " keel_box_put_harness says 'more < 3u' any more, remove it"
+            ],
+        )
 
     def test_chosen_points_never_count(self) -> None:
         table = "static const uint32_t points[2] = {1u, 2u};\n\nvoid keel"
@@ -532,8 +575,10 @@ float keel_box_angle_stand_in(const keel_box_t *box)
         for what, changes in points.items():
             with self.subTest(what):
                 self.put(*changes)
-                self.assert_found("keel_box_put: only harnesses of chosen points compare it with"
-                                  " the model: keel_box_put_harness")  # fmt: skip
+                self.assert_found(
+                    "keel_box_put: only harnesses of chosen points compare it with"
+                    " the model: keel_box_put_harness"
+                )
         with self.subTest("by its name"):
             (self.root / "proofs/box/keel_box_put_harness.c").unlink()
             self.put(name="keel_box_put__points_harness")
@@ -544,8 +589,10 @@ float keel_box_angle_stand_in(const keel_box_t *box)
         self.put()
         self.put(name="keel_box_put__edges_harness")
         found = determined.of_tree(self.root)
-        self.assertIn("keel_box_put_harness; (keel_box_put__edges_harness: chosen points)",
-                      determined.as_markdown(found))  # fmt: skip
+        self.assertIn(
+            "keel_box_put_harness; (keel_box_put__edges_harness: chosen points)",
+            determined.as_markdown(found),
+        )
         said = "determined: 2 of 2 functions for every valid state"
         self.assertEqual(determined.summary(found), said)
 
@@ -576,15 +623,23 @@ class Kept(DeterminedTest):
 
     def test_a_narrowing_is_a_difference(self) -> None:
         self.change("put_harness.c", "any_bits(8u)", "any_bits(7u)")
-        self.assertIn("proofs/determined.md: keel_box_put is shown otherwise now: review, and run"
-                      " --update-goals", self.differences())  # fmt: skip
+        self.assertIn(
+            "proofs/determined.md: keel_box_put is shown otherwise now: review, and run"
+            " --update-goals",
+            self.differences(),
+        )
         self.assertEqual(self.differences(whole=False), [])
 
     def test_a_precondition_that_says_more_is_a_difference(self) -> None:
         self.write("proofs/common/same_box.h", self.same.replace("< 99u", "< 9u"))
-        self.assertEqual(self.differences(), ["proofs/determined.md: proofs/common/same_box.h:"
-                         " box_valid_here says something else now: review, and run"
-                         " --update-goals"])  # fmt: skip
+        self.assertEqual(
+            self.differences(),
+            [
+                "proofs/determined.md: proofs/common/same_box.h:"
+                " box_valid_here says something else now: review, and run"
+                " --update-goals"
+            ],
+        )
 
     def test_a_form_that_units_not_looked_at_have_is_no_difference(self) -> None:
         path = self.root / "proofs/determined.md"
@@ -604,11 +659,17 @@ class Kept(DeterminedTest):
         path = self.root / "proofs/determined.md"
         path.write_text(path.read_text(encoding="utf-8") + "\nmore\n", encoding="utf-8")
         self.write("proofs/box/keel_box_angle_harness.c", ANGLE)
-        self.assertEqual(self.differences(), ["proofs/determined.md names what is not there any"
-                                              " more: review, and run --update-goals"])  # fmt: skip
+        self.assertEqual(
+            self.differences(),
+            [
+                "proofs/determined.md names what is not there any"
+                " more: review, and run --update-goals"
+            ],
+        )
         path.unlink()
-        self.assertEqual(self.differences(), ["proofs/determined.md is missing: review, and run"
-                                              " --update-goals"])  # fmt: skip
+        self.assertEqual(
+            self.differences(), ["proofs/determined.md is missing: review, and run --update-goals"]
+        )
 
 
 class SameTerm(DeterminedTest):
@@ -644,13 +705,19 @@ int32_t keel_box_put(keel_box_t *box, uint32_t more)
         self.assertEqual(self.said(), [])
         self.assertTrue(determined.update_kept(self.root))
         kept = (self.root / "proofs/determined.md").read_text(encoding="utf-8")
-        self.assertIn("## box\n\nThe model is the same term, under other names; a slip in both is"
-                      " seen by: values by hand.\n", kept)  # fmt: skip
+        self.assertIn(
+            "## box\n\nThe model is the same term, under other names; a slip in both is"
+            " seen by: values by hand.\n",
+            kept,
+        )
 
     def test_another_formulation_needs_none(self) -> None:
         other = "    box->count = (box->count > (UINT32_MAX - more)) ? box->count : 1u + more;\n"
-        self.write("specs/model/box.c", f"int32_t model_box_put(keel_box_t *box, uint32_t more)\n"
-                   f"{{\n{other}    return (int32_t)other(box)->last[3];\n}}\n")  # fmt: skip
+        self.write(
+            "specs/model/box.c",
+            f"int32_t model_box_put(keel_box_t *box, uint32_t more)\n"
+            f"{{\n{other}    return (int32_t)other(box)->last[3];\n}}\n",
+        )
         self.assertEqual(self.said(), [])
 
     def test_an_entry_is_read(self) -> None:
@@ -674,8 +741,12 @@ class ByWp(DeterminedTest):
     def test_every_field_is_named_by_a_clause(self) -> None:
         outcome = self.outcome()
         self.assertEqual((outcome.by, outcome.reason, outcome.problems), ("wp", "no end", []))
-        labels = {"count": ["BOX_001"], "side": ["BOX_002"], "lid.angle": ["BOX_003_lid"],
-                  "\\result": ["BOX_001"]}  # fmt: skip
+        labels = {
+            "count": ["BOX_001"],
+            "side": ["BOX_002"],
+            "lid.angle": ["BOX_003_lid"],
+            "\\result": ["BOX_001"],
+        }
         self.assertEqual(outcome.fields, labels)
         self.assertIn("not by equality: no end", determined.as_markdown([outcome]))
 
@@ -685,11 +756,13 @@ class ByWp(DeterminedTest):
             ("box->count ==", "\\at(box->count, Pre) =="): "count",
             ("\\result == 0 && ", ""): "\\result",
             ("BOX_003_lid", "lid"): "lid.angle",
-            ("ensures BOX_003_lid: box->lid.angle == 0", "ensures BOX_003: moved{Pre, Post}(box)"):
-                "lid.angle",
+            (
+                "ensures BOX_003_lid: box->lid.angle == 0",
+                "ensures BOX_003: moved{Pre, Post}(box)",
+            ): "lid.angle",
             ("assigns BOX_COUNTS(box), box->lid.angle", "assigns *box"): "lid.name",
             ("\\forall integer i; 0 <= i < 4 ==> box->side[i] == 1", "box_full(box)"): "side",
-        }  # fmt: skip
+        }
         for (old, new), name in cases.items():
             with self.subTest(new):
                 self.change("rtos/box.h", old, new)
@@ -727,8 +800,10 @@ class ByWp(DeterminedTest):
         self.write("proofs/units.toml", BY_WP.replace('"wp"', '"nothing"'))
         self.assertEqual(self.problems(), [])
         found = determined.of_tree(self.root)
-        self.assertIn("determined: 1 of 2 functions for every valid state, 1 excepted",
-                      determined.summary(found))  # fmt: skip
+        self.assertIn(
+            "determined: 1 of 2 functions for every valid state, 1 excepted",
+            determined.summary(found),
+        )
 
 
 class Parsing(unittest.TestCase):
@@ -737,16 +812,18 @@ class Parsing(unittest.TestCase):
         self.assertEqual(clauses.statement(text), text.removesuffix("; requires x;"))
 
     def test_the_state_before_does_not_count(self) -> None:
-        self.assertEqual(clauses.after("a == \\old(b(c)) + \\at(d, Post)").split(),
-                         ["a", "==", "+", "(d)"])  # fmt: skip
+        self.assertEqual(
+            clauses.after("a == \\old(b(c)) + \\at(d, Post)").split(), ["a", "==", "+", "(d)"]
+        )
 
     def test_signatures(self) -> None:
         text = (
             "static inline const char *f(const int *a, unsigned n, const float v[], int *const p);"
         )
         found = declarations.signatures(text)["f"]
-        self.assertEqual(found.types, ("const char *", "const int *", "unsigned", "const float *",
-                                       "int *"))  # fmt: skip
+        self.assertEqual(
+            found.types, ("const char *", "const int *", "unsigned", "const float *", "int *")
+        )
         self.assertEqual([one.written for one in found.parameters], [False, False, False, True])
 
     def test_what_stands_around_declarations_belongs_to_none(self) -> None:

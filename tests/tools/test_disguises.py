@@ -61,8 +61,10 @@ class Projects(unittest.TestCase):
         self.assertIn("stands nowhere any more", self.problems(said)[0])
 
     def test_a_harness_has_no_conditional_at_all(self) -> None:
-        self.write("proofs/box/keel_box_harness.c", HARNESS.replace("    __", "#if 0\n    __")
-                   .replace(");\n}", ");\n#endif\n}"))  # fmt: skip
+        self.write(
+            "proofs/box/keel_box_harness.c",
+            HARNESS.replace("    __", "#if 0\n    __").replace(");\n}", ");\n#endif\n}"),
+        )
         self.assertEqual(self.problems(), ["proofs/box/keel_box_harness.c:4: `#if 0`"])
 
     def test_lines_are_counted_across_those_that_go_on(self) -> None:

@@ -45,9 +45,13 @@ class SmallTest(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name) / "clone"
-        self.write("include/keel/version.h", "".join(
-            f"#define KEEL_VERSION_{part} {number}\n"
-            for part, number in (("MAJOR", 1), ("MINOR", 2), ("PATCH", 3))))  # fmt: skip
+        self.write(
+            "include/keel/version.h",
+            "".join(
+                f"#define KEEL_VERSION_{part} {number}\n"
+                for part, number in (("MAJOR", 1), ("MINOR", 2), ("PATCH", 3))
+            ),
+        )
         self.write("tools/toolchain.lock.json", json.dumps(LOCK))
         self.write("more.txt", "rich==15.0.0 \\\n    --hash=sha256:00\n# a==1\nattrs==2 --hash=x\n")
         self.write("run.sh", "#!/bin/sh\n").chmod(0o755)
@@ -62,11 +66,20 @@ class SmallTest(unittest.TestCase):
         return path
 
     def git(self, *words: str) -> None:
-        who = {f"GIT_{who}_{what}": "a@b" for who in ("AUTHOR", "COMMITTER")
-               for what in ("NAME", "EMAIL")}  # fmt: skip
+        who = {
+            f"GIT_{who}_{what}": "a@b"
+            for who in ("AUTHOR", "COMMITTER")
+            for what in ("NAME", "EMAIL")
+        }
         dates = {"GIT_COMMITTER_DATE": "2026-01-02T03:04:05+0100"}
-        subprocess.run(["git", *words], cwd=self.root, env={**os.environ, **who, **dates},
-                       check=True, capture_output=True, timeout=60)  # fmt: skip
+        subprocess.run(
+            ["git", *words],
+            cwd=self.root,
+            env={**os.environ, **who, **dates},
+            check=True,
+            capture_output=True,
+            timeout=60,
+        )
 
     def commit(self) -> None:
         self.git("commit", "-q", "-m", "x")
@@ -86,8 +99,9 @@ class SmallTest(unittest.TestCase):
         names = ["include/keel/version.h", "more.txt", "run.sh", "tools/toolchain.lock.json"]
         self.assertEqual([entry.name for entry in entries], [f"keel-1.2.3/{n}" for n in names])
         self.assertEqual([entry.mode for entry in entries], [0o644, 0o644, 0o755, 0o644])
-        self.assertEqual({(e.uid, e.gid, e.uname, e.mtime) for e in entries},
-                         {(0, 0, "", 1767319445)})  # fmt: skip
+        self.assertEqual(
+            {(e.uid, e.gid, e.uname, e.mtime) for e in entries}, {(0, 0, "", 1767319445)}
+        )
 
     def test_the_bill(self) -> None:
         self.dist()
@@ -95,12 +109,15 @@ class SmallTest(unittest.TestCase):
         self.assertEqual(bill["metadata"]["timestamp"], "2026-01-02T02:04:05Z")
         self.assertEqual(bill["metadata"]["component"]["version"], "1.2.3")
         found = [(c["name"], c.get("version"), c.get("purl")) for c in bill["components"]]
-        self.assertEqual(found, [
-            ("gcc", None, None),
-            ("attrs", "2", "pkg:pypi/attrs@2"),
-            ("cmake", "4.4.4", "pkg:pypi/cmake@4.4.4"),
-            ("rich", "15.0.0", "pkg:pypi/rich@15.0.0"),
-        ])  # fmt: skip
+        self.assertEqual(
+            found,
+            [
+                ("gcc", None, None),
+                ("attrs", "2", "pkg:pypi/attrs@2"),
+                ("cmake", "4.4.4", "pkg:pypi/cmake@4.4.4"),
+                ("rich", "15.0.0", "pkg:pypi/rich@15.0.0"),
+            ],
+        )
 
     def refused(self, words: str, *arguments: str) -> None:
         status, said = self.dist(*arguments)
@@ -128,8 +145,12 @@ class SmallTest(unittest.TestCase):
         self.assertIn("is no clone of Keel", said)
 
     def test_a_clone_that_git_does_not_trust_is_told_in_its_words(self) -> None:
-        distrusted = {"GIT_TEST_ASSUME_DIFFERENT_OWNER": "1", "GIT_CONFIG_COUNT": "0",
-                      "GIT_CONFIG_NOSYSTEM": "1", "HOME": "/nowhere"}  # fmt: skip
+        distrusted = {
+            "GIT_TEST_ASSUME_DIFFERENT_OWNER": "1",
+            "GIT_CONFIG_COUNT": "0",
+            "GIT_CONFIG_NOSYSTEM": "1",
+            "HOME": "/nowhere",
+        }
         with mock.patch.dict(os.environ, distrusted):
             status, said = self.dist()
         self.assertEqual(status, 1)
@@ -170,8 +191,9 @@ class ReleaseTest(ConsumerTest):
         """By the specification of REUSE, and the licence is the one that LICENSE has."""
         keel = self.unpacked()
         self.python("-m", "reuse", "--root", keel, "lint")
-        self.assertEqual((keel / "LICENSE").read_bytes(),
-                         (keel / "LICENSES/Apache-2.0.txt").read_bytes())  # fmt: skip
+        self.assertEqual(
+            (keel / "LICENSE").read_bytes(), (keel / "LICENSES/Apache-2.0.txt").read_bytes()
+        )
         (keel / "LICENSES/Apache-2.0.txt").unlink()
         with self.assertRaisesRegex(AssertionError, "Missing licenses: Apache-2.0"):
             self.python("-m", "reuse", "--root", keel, "lint")

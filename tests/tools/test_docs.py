@@ -199,7 +199,11 @@ class DocumentsTest(unittest.TestCase):
         self.assertEqual(len(examples), 1)
         flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{ROOT / 'include'}"]
         done = subprocess.run(
-            ["gcc", *flags, "-fsyntax-only", "-x", "c", "-"], input=examples[0], text=True,
-            capture_output=True, timeout=60, check=False,
-        )  # fmt: skip
+            ["gcc", *flags, "-fsyntax-only", "-x", "c", "-"],
+            input=examples[0],
+            text=True,
+            capture_output=True,
+            timeout=60,
+            check=False,
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -119,7 +119,7 @@ def kinds_of_functions() -> tuple[str, ...]:
         r"(\d+) of \d+ functions for every valid state(?:, (\d+) within a bound)?"
         r"(?: \((\d+) of them with WP's clauses[^)]*\))?(?:, (\d+) by WP's clauses alone)?",
         text_of(DETERMINED),
-    )  # fmt: skip
+    )
     assert line is not None, DETERMINED
     whole, bounded, named, alone = (int(number or 0) for number in line.groups())
     return str(whole), str(named + alone), str(bounded - named)
@@ -168,8 +168,11 @@ def tasks() -> tuple[str, ...]:
 
 def utilisation(*classes: bool) -> float:
     """Of its real-time tasks (True) and the others."""
-    return sum(task["budget_us"] / task["period_us"] for task in toml_of(URPILOT)["task"]
-               if (task.get("class") == "real-time") in classes)  # fmt: skip
+    return sum(
+        task["budget_us"] / task["period_us"]
+        for task in toml_of(URPILOT)["task"]
+        if (task.get("class") == "real-time") in classes
+    )
 
 
 def utilisations() -> tuple[str, ...]:
@@ -278,37 +281,59 @@ FIGURES: tuple[Figure, ...] = (
     Figure("README.md", r"of the (\d+) public functions", functions),
     Figure("README.md", r"queues of (\d+) tasks and (\d+) sensors", both),
     Figure("README.md", r"CI proves (\d+), as if", of_capacity),
-    Figure("docs/proved.md", r"Of (\d+) functions it is known that something is left open",
-           open_functions),
+    Figure(
+        "docs/proved.md",
+        r"Of (\d+) functions it is known that something is left open",
+        open_functions,
+    ),
     Figure("docs/proved.md", r"each of the (\d+) public functions", functions),
     Figure("docs/proved.md", r"queues of (\d+) tasks, (\d+) sensors;", both),
-    Figure("docs/proved.md",
-           r"now for (\d+) of the (\d+) units\. Of their (\d+) mutants.*?refute (\d+)\. Of the "
-           r"other (\d+), (\d+) compile to the same object code, and (\d+) mean", mutants),
-    Figure("docs/proved.md", r"tables of up to (\d+) messages, payloads of up to (\d+) bytes",
-           looked_at),
+    Figure(
+        "docs/proved.md",
+        r"now for (\d+) of the (\d+) units\. Of their (\d+) mutants.*?refute (\d+)\. Of the "
+        r"other (\d+), (\d+) compile to the same object code, and (\d+) mean",
+        mutants,
+    ),
+    Figure(
+        "docs/proved.md",
+        r"tables of up to (\d+) messages, payloads of up to (\d+) bytes",
+        looked_at,
+    ),
     Figure("docs/proved.md", r"of up to (\d+) bytes that are held", dropped_from),
     Figure("docs/proved.md", r"\| payloads of up to (\d+) bytes \|", payloads),
     Figure("docs/proved.md", r"CBMC for (\d+) bytes\)", ring_bytes),
     Figure("docs/proved.md", r"\((\d+\.\d)\s+minutes\)", half_turn),
     Figure(SOUNDNESS, r"queues of (\d+) tasks and up to (\d+) sensors", both),
     Figure(SOUNDNESS, r"CBMC, a ring of (\d+) bytes", ring_bytes),
-    Figure(SOUNDNESS, r"tables of up to (\d+) messages and frames with payloads of up to (\d+)",
-           looked_at),
+    Figure(
+        SOUNDNESS,
+        r"tables of up to (\d+) messages and frames with payloads of up to (\d+)",
+        looked_at,
+    ),
     Figure(SOUNDNESS, r"of up to (\d+) bytes that are held", dropped_from),
     Figure(SOUNDNESS, r"payloads of up to (\d+) bytes; the checksum is", payloads),
-    Figure(SOUNDNESS, r"messages of up to (\d+) bytes, names of up to (\d+) characters, formats "
-           r"of up to (\d+) fields", ulog_sizes),
+    Figure(
+        SOUNDNESS,
+        r"messages of up to (\d+) bytes, names of up to (\d+) characters, formats "
+        r"of up to (\d+) fields",
+        ulog_sizes,
+    ),
     Figure(SOUNDNESS, r"(\d[\d ]*) random sets", random_sets),
     Figure(SOUNDNESS, r"CBMC is shown one in (\d+)", confirmed),
     Figure(SOUNDNESS, r"\((\d+\.\d) minutes\)", half_turn),
     Figure("CONTRIBUTING.md", r"CBMC must see the same in one of (\d+)", confirmed),
     Figure("docs/finding_a_proof.md", r"for Gappa: (.*) have them", rounded_units),
-    Figure("docs/integration.md", r"into a queue, (\d+) to (\d+);",
-           lambda: option("KEEL_QUEUE_CAPACITY")),
+    Figure(
+        "docs/integration.md",
+        r"into a queue, (\d+) to (\d+);",
+        lambda: option("KEEL_QUEUE_CAPACITY"),
+    ),
     Figure("docs/integration.md", r"into a queue, [^;]*; (\d+) unless set", of_capacity),
-    Figure("docs/integration.md", r"that can vote, (\d+) to (\d+);",
-           lambda: option("KEEL_VOTER_SENSORS")),
+    Figure(
+        "docs/integration.md",
+        r"that can vote, (\d+) to (\d+);",
+        lambda: option("KEEL_VOTER_SENSORS"),
+    ),
     Figure("docs/integration.md", r"that can vote, [^;]*; (\d+) unless set", of_sensors),
     Figure("docs/integration.md", r"numbers of the headers, (\d+) tasks and (\d+) sensors", both),
     Figure("docs/integration.md", r"Of the (\d+) units", lambda: (str(len(units())),)),
@@ -320,33 +345,61 @@ FIGURES: tuple[Figure, ...] = (
     Figure("docs/emulator.md", r"\*\*(\d[\d ]*) random vectors", vectors),
     Figure("docs/timing.md", r"(\d[\d ]*) random sets", random_sets),
     Figure("docs/timing.md", r"A queue holds (\d+) tasks unless", of_capacity),
-    Figure("docs/timing.md", r"another number, up to (\d+), for",
-           lambda: option("KEEL_QUEUE_CAPACITY")[1:]),
+    Figure(
+        "docs/timing.md",
+        r"another number, up to (\d+), for",
+        lambda: option("KEEL_QUEUE_CAPACITY")[1:],
+    ),
     Figure("docs/timing.md", r"The proofs are for (\d+)\.", of_capacity),
-    Figure("docs/timing.md",
-           r"utilisation of real-time tasks, others, all \| [^|]* \| (\S+), (\S+), (\S+) by",
-           utilisations),
+    Figure(
+        "docs/timing.md",
+        r"utilisation of real-time tasks, others, all \| [^|]* \| (\S+), (\S+), (\S+) by",
+        utilisations,
+    ),
     Figure("docs/paper.md", r"table 2's sums are (\S+) and (\S+) \|", lambda: utilisations()[:2]),
-    Figure("docs/first_flight.md", r"(\S+) % declared",
-           lambda: (f"{100.0 * utilisation(True, False):.1f}",)),
-    Figure("docs/copter.md", r"together are (\S+) million instructions a second;.*?be (\S+) % of",
-           bodies),
-    Figure("docs/boards.md", r"(\d+) facts have no counterpart",
-           lambda: (str(len(toml_of("specs/registers.toml")["absent"])),)),
+    Figure(
+        "docs/first_flight.md",
+        r"(\S+) % declared",
+        lambda: (f"{100.0 * utilisation(True, False):.1f}",),
+    ),
+    Figure(
+        "docs/copter.md",
+        r"together are (\S+) million instructions a second;.*?be (\S+) % of",
+        bodies,
+    ),
+    Figure(
+        "docs/boards.md",
+        r"(\d+) facts have no counterpart",
+        lambda: (str(len(toml_of("specs/registers.toml")["absent"])),),
+    ),
     Figure("docs/ci.md", r"(\d+) machines prove a part each", shards),
-    Figure("docs/fuzzing.md", r"`SECONDS=(\d+)`",
-           lambda: (number_in("Makefile", r"^SECONDS := (\d+)"),)),
-    Figure("docs/fuzzing.md", r"`\.ci/run` fuzzes each for (\d+) seconds",
-           lambda: (number_in(".ci/run", r"check fuzz SECONDS=(\d+)"),)),
-    *(Figure(name, TASKS, tasks) for name in (
-        "docs/README.md", "docs/building.md", "docs/copter.md", "docs/boards.md",
-        "docs/emulator.md")),
-)  # fmt: skip
+    Figure(
+        "docs/fuzzing.md",
+        r"`SECONDS=(\d+)`",
+        lambda: (number_in("Makefile", r"^SECONDS := (\d+)"),),
+    ),
+    Figure(
+        "docs/fuzzing.md",
+        r"`\.ci/run` fuzzes each for (\d+) seconds",
+        lambda: (number_in(".ci/run", r"check fuzz SECONDS=(\d+)"),),
+    ),
+    *(
+        Figure(name, TASKS, tasks)
+        for name in (
+            "docs/README.md",
+            "docs/building.md",
+            "docs/copter.md",
+            "docs/boards.md",
+            "docs/emulator.md",
+        )
+    ),
+)
 
 if (ROOT / DETERMINED).is_file():
     KINDS = r"^\| (\d+) \| (?:in )?every valid state \|\n\| (\d+) \| .*?\n\| (\d+) \| "
-    FIGURES += tuple(Figure(name, KINDS, kinds_of_functions)
-                     for name in ("README.md", "docs/proved.md"))  # fmt: skip
+    FIGURES += tuple(
+        Figure(name, KINDS, kinds_of_functions) for name in ("README.md", "docs/proved.md")
+    )
 
 # What a command measures, and nothing in the repository repeats; the command is in the document.
 MADE = {
@@ -354,23 +407,26 @@ MADE = {
     "docs/boards.md": {"657 facts": "`make registers`", "914 comparisons": "`make registers`"},
     # Limits and minutes of proofs: tests/tools/test_workflow.py compares them.
     "docs/ci.md": {
-        "120 min": "at most", "60 min": "at most", "30 min": "at most",
-        "196 minutes": "`proofs/times.json`", "16 minutes": "`proofs/times.json`",
+        "120 min": "at most",
+        "60 min": "at most",
+        "30 min": "at most",
+        "196 minutes": "`proofs/times.json`",
+        "16 minutes": "`proofs/times.json`",
         "19 minutes": "`build/test/report.json`",
     },
     "docs/copter.md": {"12 minutes": "92 kB a second"},
     "docs/cost.md": {"430 instructions": "`make bench`", "38 instructions": "`make bench`"},
     "docs/first_flight.md": {"10 min": "by design", "1 min": "by design", "72 min": "by design"},
-    "docs/fuzzing.md": {
-        "100 000 000 executions": "make fuzz ARGS=",
-        "3 minutes": "of a core",
-    },
+    "docs/fuzzing.md": {"100 000 000 executions": "make fuzz ARGS=", "3 minutes": "of a core"},
     # tests/tools/test_primer.py compares what these commands say.
     "docs/primer.md": {"69 goals": "--update-goals", "3 functions": "keel.mk prove"},
     "docs/telemetry.md": {"14 500 instructions": "x86-64"},
-    "docs/timing.md": {"3086 random paths": "`make test`", "308 instructions": "`make bench`",
-                       "88 instructions": "`make bench`"},
-}  # fmt: skip
+    "docs/timing.md": {
+        "3086 random paths": "`make test`",
+        "308 instructions": "`make bench`",
+        "88 instructions": "`make bench`",
+    },
+}
 COUNTED = re.compile(
     r"(?<![\d.])(\d[\d ]*\d|\d+)\s+(public functions|functions|goals|mutants|harnesses|mistakes|"
     r"facts|comparisons|random (?:sets|paths|vectors)|faults|executions|instructions|minutes|min)\b"
@@ -378,11 +434,13 @@ COUNTED = re.compile(
 
 # The rows of the table of costs, by what the budget calls them.
 COSTS = {
-    "a pass that runs no task": "no_task", "a pass that runs one task of 21": "one_task",
+    "a pass that runs no task": "no_task",
+    "a pass that runs one task of 21": "one_task",
     "a pass that runs two or three tasks": "several_tasks",
     "a pass that runs four tasks": "four_tasks",
     "the virtual IMU, 3 units of 6 channels that agree": "imu",
-    "the virtual IMU when one unit is outvoted": "imu_worst", "a filter's step": "filter",
+    "the virtual IMU when one unit is outvoted": "imu_worst",
+    "a filter's step": "filter",
     "a PID step, its filter included": "pid",
     "a reference generator's step, four sticks": "reference",
     "a mode's step in flight, a frame in each": "mode",
@@ -393,11 +451,16 @@ COSTS = {
     "an altitude's step, a pressure in each": "altitude",
     "a position's step, a fix in each": "position",
     "a cascade's four stages, 11 controllers": "cascade",
-    "a battery's step, two modules": "battery", "a calibration's step, at rest": "calibration",
-    "a byte of SBUS, of right frames": "sbus", "a byte of SBUS, when all are headers": "sbus_worst",
-    "a byte of CRSF, of right frames": "crsf", "a byte of IBUS, of right frames": "ibus",
-    "an edge of PPM": "ppm", "a byte of UBX, of right messages": "ubx",
-    "a byte of MAVLink, of right frames": "mavlink", "a frame's signature": "signing",
+    "a battery's step, two modules": "battery",
+    "a calibration's step, at rest": "calibration",
+    "a byte of SBUS, of right frames": "sbus",
+    "a byte of SBUS, when all are headers": "sbus_worst",
+    "a byte of CRSF, of right frames": "crsf",
+    "a byte of IBUS, of right frames": "ibus",
+    "an edge of PPM": "ppm",
+    "a byte of UBX, of right messages": "ubx",
+    "a byte of MAVLink, of right frames": "mavlink",
+    "a frame's signature": "signing",
     "a reading of the barometer MS5611 in frost": "ms5611",
     "a record of 36 bytes into the log's ring": "log_ring",
     "a log's message of 36 bytes of data": "ulog",
@@ -405,7 +468,7 @@ COSTS = {
     "a run of a task whose lateness is counted": "lateness",
     "a task's line of the table": "table_line",
     "`keel_scheduler_spread` of 21 tasks, once, before the start": "spread",
-}  # fmt: skip
+}
 
 
 def matches(figure: Figure) -> list[re.Match[str]]:
@@ -422,17 +485,22 @@ def wrong_in(figure: Figure) -> Iterator[str]:
     for match in found:
         if match.groups() != figure.numbers():
             line = text_of(figure.document).count("\n", 0, match.start()) + 1
-            yield (f"{figure.document}:{line}: {', '.join(match.groups())}: "
-                   f"it is {', '.join(figure.numbers())}")  # fmt: skip
+            yield (
+                f"{figure.document}:{line}: {', '.join(match.groups())}: "
+                f"it is {', '.join(figure.numbers())}"
+            )
 
 
 def uncovered(name: str) -> Iterator[str]:
     """What is counted in a document, and neither compared nor made by a command that it names."""
     text = text_of(name)
     spans = [
-        match.span(group) for figure in FIGURES if figure.document == name
-        for match in matches(figure) for group in range(1, len(match.groups()) + 1)
-    ]  # fmt: skip
+        match.span(group)
+        for figure in FIGURES
+        if figure.document == name
+        for match in matches(figure)
+        for group in range(1, len(match.groups()) + 1)
+    ]
     for match in COUNTED.finditer(text):
         words = " ".join(match[0].split())
         command = MADE.get(name, {}).get(words)
@@ -466,17 +534,28 @@ class Figures(unittest.TestCase):
 
     def test_what_is_made_is_there(self) -> None:
         said = {name: " ".join(text_of(name).split()) for name in MADE}
-        self.none([f"{name}: {words}" for name, made in MADE.items() for words in made
-                   if words not in said[name]])  # fmt: skip
+        self.none(
+            [
+                f"{name}: {words}"
+                for name, made in MADE.items()
+                for words in made
+                if words not in said[name]
+            ]
+        )
 
     def test_the_status_is_of_these_proofs(self) -> None:
         rows = status_rows()
         said = {name: Unit(int(row[1]), int(row[2]), int(row[5])) for name, row in rows.items()}
         total = Unit(*(sum(column) for column in zip(*units().values(), strict=True)))
         true = {**units(), "all": total}
-        self.none([f"docs/status.md: {name}: {said.get(name)}: it is {true.get(name)}; make "
-                   "prove-all, then make status" for name in sorted({*true, *said})
-                   if true.get(name) != said.get(name)])  # fmt: skip
+        self.none(
+            [
+                f"docs/status.md: {name}: {said.get(name)}: it is {true.get(name)}; make "
+                "prove-all, then make status"
+                for name in sorted({*true, *said})
+                if true.get(name) != said.get(name)
+            ]
+        )
 
     def test_kinds_of_functions_are_all_functions(self) -> None:
         for name in ("README.md", "docs/proved.md"):
@@ -489,8 +568,11 @@ class Figures(unittest.TestCase):
         tasks_ = measured("docs/copter.md", "| task | instructions", 1)
         said = {COSTS[row]: number for row, number in costs.items()}
         said |= {f"task_{re.sub(r'[^a-z]+', '_', row.lower())}": n for row, n in tasks_.items()}
-        wrong = {name: (number, budget[name]) for name, number in said.items()
-                 if abs(number - budget[name]) > 1.0 + BENCH_PART * budget[name]}  # fmt: skip
+        wrong = {
+            name: (number, budget[name])
+            for name, number in said.items()
+            if abs(number - budget[name]) > 1.0 + BENCH_PART * budget[name]
+        }
         self.assertEqual({}, wrong)
         self.assertEqual(set(), set(budget) - set(said) - {"signing"})
 

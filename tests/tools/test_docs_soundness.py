@@ -125,8 +125,11 @@ def of_command(number: str, command: str, files: list[str]) -> Iterator[str]:
     if target is None or not recipe(target[1]):
         yield f"{number}: there is no {command}"
         return
-    yield from (f"{number}: {command} does not run {name}" for name in files
-                if there(name) and not runs(target[1], name))  # fmt: skip
+    yield from (
+        f"{number}: {command} does not run {name}"
+        for name in files
+        if there(name) and not runs(target[1], name)
+    )
 
 
 def there(name: str) -> bool:
@@ -141,8 +144,10 @@ class SoundnessTable(unittest.TestCase):
         self.rows = rows_of(TABLE.read_text(encoding="utf-8"))
 
     def test_rows_are_numbered_and_whole(self) -> None:
-        self.assertEqual([row.number for row in self.rows],
-                         [str(number) for number in range(1, len(self.rows) + 1)])  # fmt: skip
+        self.assertEqual(
+            [row.number for row in self.rows],
+            [str(number) for number in range(1, len(self.rows) + 1)],
+        )
         self.assertEqual([], [row.number for row in self.rows if not all(row)])
 
     def test_each_row_names_checks_that_run(self) -> None:
@@ -162,16 +167,24 @@ class FalseRows(unittest.TestCase):
 
     def test_what_is_not_there(self) -> None:
         self.assertEqual(["7: there is no make prov"], self.told("`make prov`"))
-        self.assertEqual(["7: there is no tests/tools/test_nothing.py"],
-                         self.told("`tests/tools/test_nothing.py`"))  # fmt: skip
-        self.assertEqual(["7: there is no tools/keel/judge/gone.py"],
-                         self.told("`make prove` (`tools/keel/judge/gone.py`)"))  # fmt: skip
+        self.assertEqual(
+            ["7: there is no tests/tools/test_nothing.py"],
+            self.told("`tests/tools/test_nothing.py`"),
+        )
+        self.assertEqual(
+            ["7: there is no tools/keel/judge/gone.py"],
+            self.told("`make prove` (`tools/keel/judge/gone.py`)"),
+        )
 
     def test_what_does_not_run(self) -> None:
-        self.assertEqual(["7: make trace does not run tools/keel/test/fuzz.py"],
-                         self.told("`make trace` (`tools/keel/test/fuzz.py`)"))  # fmt: skip
-        self.assertEqual(["7: tools/keel/test/fuzz.py is neither a command's nor a suite of make test"],
-                         self.told("`make trace`, `tools/keel/test/fuzz.py`"))  # fmt: skip
+        self.assertEqual(
+            ["7: make trace does not run tools/keel/test/fuzz.py"],
+            self.told("`make trace` (`tools/keel/test/fuzz.py`)"),
+        )
+        self.assertEqual(
+            ["7: tools/keel/test/fuzz.py is neither a command's nor a suite of make test"],
+            self.told("`make trace`, `tools/keel/test/fuzz.py`"),
+        )
         self.assertEqual(["7: names no check"], self.told("somebody looks"))
 
     def test_what_is_right(self) -> None:

@@ -84,8 +84,10 @@ class Records(unittest.TestCase):
     def test_the_stack_met_its_guard(self) -> None:
         stack = (("exception 6", "exception 4"), ("  stacked", "  not stacked"))
         status = ("cfsr 0x02000000", "cfsr 0x00000092")
-        inside, above = ("mmfar 0x00000000", "mmfar 0x200003f8"), ("mmfar 0x00000000",
-                                                                    "mmfar 0x20000400")  # fmt: skip
+        inside, above = (
+            ("mmfar 0x00000000", "mmfar 0x200003f8"),
+            ("mmfar 0x00000000", "mmfar 0x20000400"),
+        )
         self.assertEqual(self.judge("stack", *stack, status, inside, span=range(0)), [])
         self.assertEqual(len(self.judge("stack", *stack, status, above, span=range(0))), 1)
         self.assertEqual(len(self.judge("stack", status, inside, span=range(0))), 2)
@@ -145,8 +147,10 @@ class Demo(unittest.TestCase):
 
     def test_background_radio(self) -> None:
         line = "radio {}: protocol {} found {} sent {} frames {} longest {} behind {}\n"
-        good = {name: [name, protocol, found, 100, 0 if "noise" in name else 100 - before, 200, 9]
-                for name, (protocol, found, before) in emulated_tests.RADIOS.items()}  # fmt: skip
+        good = {
+            name: [name, protocol, found, 100, 0 if "noise" in name else 100 - before, 200, 9]
+            for name, (protocol, found, before) in emulated_tests.RADIOS.items()
+        }
 
         def judge(rows: dict[str, list[object]]) -> list[str]:
             text = "".join(line.format(*row) for row in rows.values())
@@ -296,8 +300,10 @@ class Emulated(unittest.TestCase):
         model = emulated_tests.digests(emulated_tests.run_model(self.board))
         with mock.patch.object(emulated_tests, "MODELS", folder.relative_to(ROOT).as_posix()):
             wrong = emulated_tests.digests(emulated_tests.run_model(self.board))
-        found = {unit: emulated_tests.first_difference(model, wrong, unit)
-                 for unit in emulated_tests.UNITS}  # fmt: skip
+        found = {
+            unit: emulated_tests.first_difference(model, wrong, unit)
+            for unit in emulated_tests.UNITS
+        }
         self.assertEqual(found, {**dict.fromkeys(emulated_tests.UNITS), "priority": 0})
 
     def changed_driver(self) -> str:

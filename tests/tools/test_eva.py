@@ -60,8 +60,14 @@ def analysed(share: int, status: str) -> Analysis:
     return Analysis((row,), reach, 1, 1, ())
 
 
-ALARM = {"file": "src/x.c", "line": 7, "function": "keel_f", "kind": "mem_access",
-         "status": "Unknown", "text": "mem_access: \\valid(p)"}  # fmt: skip
+ALARM = {
+    "file": "src/x.c",
+    "line": 7,
+    "function": "keel_f",
+    "kind": "mem_access",
+    "status": "Unknown",
+    "text": "mem_access: \\valid(p)",
+}
 
 
 def found(**more: Any) -> dict[str, Any]:
@@ -159,14 +165,16 @@ class Frama(unittest.TestCase):
     def test_an_index_out_of_bounds_is_an_alarm(self) -> None:
         self.assertEqual(self.analyse(4, ["entry"])["entry"].alarms, [])
         (alarm,) = self.analyse(5, ["entry"])["entry"].alarms
-        self.assertEqual((alarm.file, alarm.function, alarm.kind),
-                         ("src/p.c", "entry", "index_bound"))  # fmt: skip
+        self.assertEqual(
+            (alarm.file, alarm.function, alarm.kind), ("src/p.c", "entry", "index_bound")
+        )
 
     def test_a_write_outside_of_the_contract_is_found(self) -> None:
         names = ["within", "outside", "element"]
         every = self.analyse(4, names, *ANY_CONTEXT)
-        self.assertEqual([every[name].assigns(name) for name in names],
-                         ["Valid", "Unknown", "Unknown"])  # fmt: skip
+        self.assertEqual(
+            [every[name].assigns(name) for name in names], ["Valid", "Unknown", "Unknown"]
+        )
         self.assertEqual(every["outside"].share("outside"), 1.0)
 
     def test_a_program_that_does_not_parse(self) -> None:

@@ -19,13 +19,7 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from evidence_sample import (
-    SOURCE,
-    STAMP,
-    assembled,
-    formal,
-    sample_tests,
-)
+from evidence_sample import SOURCE, STAMP, assembled, formal, sample_tests
 
 from keel.base.errors import ToolError
 from keel.base.files import write_json
@@ -94,8 +88,9 @@ class Parts(InFolder):
         self.assertEqual(self.problems(), [])
 
     def test_what_a_part_finds_is_told_with_its_name(self) -> None:
-        self.assertEqual(self.problems(tests=added(problems=("test_x fails",))),
-                         ["tests: test_x fails"])  # fmt: skip
+        self.assertEqual(
+            self.problems(tests=added(problems=("test_x fails",))), ["tests: test_x fails"]
+        )
 
     def test_an_absent_part(self) -> None:
         with self.assertRaisesRegex(ToolError, r"no tools/keel/evidence/parts/nonesuch\.py"):
@@ -118,8 +113,9 @@ class Parts(InFolder):
             report: dict[str, str] = {}
             return Part(name="tests", title=report["units"])
 
-        self.assertEqual(self.problems(tests=stumbles),
-                         ["tests: cannot be made: KeyError: 'units'"])  # fmt: skip
+        self.assertEqual(
+            self.problems(tests=stumbles), ["tests: cannot be made: KeyError: 'units'"]
+        )
 
     def test_a_link_that_leads_nowhere(self) -> None:
         lost = Item(kind="test", id="unit/x/y", title="y", links=("requirement:QUE-999",))
@@ -128,36 +124,53 @@ class Parts(InFolder):
 
     def test_a_cell_that_leads_nowhere_and_a_row_that_is_too_short(self) -> None:
         table = Table(title="T", columns=("a", "b"), rows=(("goal:no/where", "1"), ("x",)))
-        self.assertEqual(self.problems(tests=added(tables=(table,))),
-                         ["tests: table 'T' names goal:no/where, which is nowhere",
-                          "tests: table 'T' has an uneven row: ('x',)"])  # fmt: skip
+        self.assertEqual(
+            self.problems(tests=added(tables=(table,))),
+            [
+                "tests: table 'T' names goal:no/where, which is nowhere",
+                "tests: table 'T' has an uneven row: ('x',)",
+            ],
+        )
 
     def test_a_removed_harness_leaves_links_to_nothing(self) -> None:
         part = formal()
         left = tuple(item for item in part.items if item.kind != "harness")
         told = self.problems(formal=lambda _: part.model_copy(update={"items": left}))
-        self.assertTrue(any("harness:queue/keel_queue_init_harness, which is nowhere" in line
-                            for line in told), told)  # fmt: skip
+        self.assertTrue(
+            any("harness:queue/keel_queue_init_harness, which is nowhere" in line for line in told),
+            told,
+        )
 
     def test_an_item_twice_in_one_part(self) -> None:
-        self.assertEqual(self.problems(tests=added(sample_tests().items[0])),
-                         ["tests: test:unit/test_queue/test_0_adds is there twice"])  # fmt: skip
+        self.assertEqual(
+            self.problems(tests=added(sample_tests().items[0])),
+            ["tests: test:unit/test_queue/test_0_adds is there twice"],
+        )
 
     def test_something_bad_of_which_no_problem_speaks(self) -> None:
         failed = Item(kind="test", id="unit/x/y", title="expected 1, was 2", state="bad")
-        self.assertEqual(self.problems(tests=added(failed)),
-                         ["tests: test:unit/x/y is bad: expected 1, was 2"])  # fmt: skip
+        self.assertEqual(
+            self.problems(tests=added(failed)), ["tests: test:unit/x/y is bad: expected 1, was 2"]
+        )
         told = added(failed, problems=("unit/x/y: expected 1, was 2",))
         self.assertEqual(self.problems(tests=told), ["tests: unit/x/y: expected 1, was 2"])
 
     def test_a_file_that_is_not_there(self) -> None:
         gone = self.folder / "gone.xml"
-        self.assertEqual(self.problems(tests=added(files={"junit.xml": gone})),
-                         [f"tests: junit.xml: is missing: {gone}"])  # fmt: skip
+        self.assertEqual(
+            self.problems(tests=added(files={"junit.xml": gone})),
+            [f"tests: junit.xml: is missing: {gone}"],
+        )
 
     def test_parts_that_speak_of_one_thing_are_joined(self) -> None:
-        more = Item(kind="function", id="keel_queue_init", title="", text="Not reached: line 7",
-                    state="open", links=("assumption:A-01",))  # fmt: skip
+        more = Item(
+            kind="function",
+            id="keel_queue_init",
+            title="",
+            text="Not reached: line 7",
+            state="open",
+            links=("assumption:A-01",),
+        )
         entry = assembled(self.folder, tests=added(more)).entries["function:keel_queue_init"]
         self.assertEqual([part for part, _ in entry.items], ["formal", "tests"])
         self.assertEqual((entry.title, entry.state), ("Empties a queue", "open"))
@@ -218,8 +231,12 @@ class Packages(InFolder):
             verify(place, STAMP)
         place = self.package()
         (place / ATTESTATION).write_text('{"subject": ', encoding="utf-8")
-        self.assertTrue(any(line.startswith(f"{ATTESTATION}: is missing or not whole")
-                            for line in verify(place, STAMP)))  # fmt: skip
+        self.assertTrue(
+            any(
+                line.startswith(f"{ATTESTATION}: is missing or not whole")
+                for line in verify(place, STAMP)
+            )
+        )
         (place / MANIFEST).write_text('{"schema"', encoding="utf-8")
         with self.assertRaisesRegex(ToolError, f"{MANIFEST}: is not whole"):
             verify(place, STAMP)
@@ -227,8 +244,7 @@ class Packages(InFolder):
     def test_one_of_another_commit_or_source(self) -> None:
         place = self.package()
         other = {**STAMP, "commit": "0" * 40}
-        self.assertEqual(verify(place, other),
-                         [f"made from commit {'c' * 40}, here is {'0' * 40}"])  # fmt: skip
+        self.assertEqual(verify(place, other), [f"made from commit {'c' * 40}, here is {'0' * 40}"])
         told = ["the source here is not the one that the package was made from"]
         self.assertEqual(verify(place, {**STAMP, "tree": "0" * 64}), told)
 
@@ -303,13 +319,17 @@ class Measured(InFolder):
         self.assertEqual(reproduced(one, other), [])
         before, after = digests(one), digests(other)
         self.assertEqual(before.keys(), after.keys())
-        self.assertEqual({name for name in before if before[name] != after[name]},
-                         {"measured.json", "site/measured.html", ATTESTATION, SUMS})  # fmt: skip
+        self.assertEqual(
+            {name for name in before if before[name] != after[name]},
+            {"measured.json", "site/measured.html", ATTESTATION, SUMS},
+        )
         page = (other / "site/measured.html").read_text(encoding="utf-8")
         self.assertIn("<td>22.2</td><td>queue/wp/lemmas</td>", page)
         read = json.loads((other / "measured.json").read_text(encoding="utf-8"))
-        self.assertEqual(read["seconds"]["tests"], {"queue/wp/lemmas": 22.25,
-                                                    "report.json/suites/unit/queue": 22.25})
+        self.assertEqual(
+            read["seconds"]["tests"],
+            {"queue/wp/lemmas": 22.25, "report.json/suites/unit/queue": 22.25},
+        )
         for name in ("report.json", "junit.xml"):
             self.assertNotIn("22.25", (other / "tests" / name).read_text(encoding="utf-8"))
         self.assertIn('"passed": 1', (other / "tests/report.json").read_text(encoding="utf-8"))
@@ -324,8 +344,9 @@ class Measured(InFolder):
     def test_an_attestation_or_checksums_that_state_something_else(self) -> None:
         one, other = self.made("one", 1.5), self.made("other", 2.5)
         text = (other / ATTESTATION).read_text(encoding="utf-8")
-        (other / ATTESTATION).write_text(text.replace('"tools": {}', '"tools": {"z3": "4"}'),
-                                         encoding="utf-8")  # fmt: skip
+        (other / ATTESTATION).write_text(
+            text.replace('"tools": {}', '"tools": {"z3": "4"}'), encoding="utf-8"
+        )
         told = f"{ATTESTATION}: states something else than in {one}"
         self.assertEqual(reproduced(one, other), [told])
         sums = (other / SUMS).read_text(encoding="utf-8").splitlines(keepends=True)
@@ -353,17 +374,19 @@ class Program(InFolder):
         self.out = self.folder / "out"
 
     def run_it(
-        self, *words: str, as_is: tuple[str, ...] = ("--as-is",),
-        **parts: Callable[[Context], Part],
-    ) -> tuple[int, list[str]]:  # fmt: skip
+        self, *words: str, as_is: tuple[str, ...] = ("--as-is",), **parts: Callable[[Context], Part]
+    ) -> tuple[int, list[str]]:
         def sample(context: Context) -> Any:
             return assembled(self.folder, **parts)
 
         said = io.StringIO()
-        with mock.patch.object(self.program, "assemble", sample), \
-                mock.patch.object(self.program, "stamp_of", lambda _: STAMP), \
-                mock.patch.object(self.program, "source_of", lambda *_: self.source), \
-                contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):  # fmt: skip
+        with (
+            mock.patch.object(self.program, "assemble", sample),
+            mock.patch.object(self.program, "stamp_of", lambda _: STAMP),
+            mock.patch.object(self.program, "source_of", lambda *_: self.source),
+            contextlib.redirect_stdout(said),
+            contextlib.redirect_stderr(said),
+        ):
             status = self.program.main([*as_is, "--out", str(self.out), *words])
         return status, said.getvalue().splitlines()
 
@@ -385,10 +408,12 @@ class Program(InFolder):
         self.assertIn(f"FAILED index.html: is missing, {SUMS} has it", lines)
 
     def test_where_others_prove_nothing_is_run_without_their_report(self) -> None:
-        with mock.patch.object(self.program, "run_commands") as run, \
-                mock.patch.object(self.program, "foreseen", return_value=[]), \
-                mock.patch.object(self.program, "handed_over", return_value=["refused"]), \
-                mock.patch.object(self.program, "Toolchain"):  # fmt: skip
+        with (
+            mock.patch.object(self.program, "run_commands") as run,
+            mock.patch.object(self.program, "foreseen", return_value=[]),
+            mock.patch.object(self.program, "handed_over", return_value=["refused"]),
+            mock.patch.object(self.program, "Toolchain"),
+        ):
             status, lines = self.run_it(as_is=())
         run.assert_not_called()
         self.assertEqual((status, lines[0]), (1, "FAILED refused"))
@@ -412,8 +437,10 @@ class Program(InFolder):
         lost = Item(kind="test", id="unit/x/y", title="y", links=("requirement:QUE-999",))
         status, _ = self.run_it("--draft", str(draft), tests=added(lost))
         self.assertEqual(status, 1)
-        self.assertIn("requirement:QUE-999, which is nowhere",
-                      (draft / "index.html").read_text(encoding="utf-8"))  # fmt: skip
+        self.assertIn(
+            "requirement:QUE-999, which is nowhere",
+            (draft / "index.html").read_text(encoding="utf-8"),
+        )
         self.assertFalse((draft / SUMS).exists())
         self.assertFalse(self.out.exists())
 
@@ -421,8 +448,9 @@ class Program(InFolder):
         self.source = Source(STAMP, 1, ("src/rtos/queue.c",))
         status, lines = self.run_it()
         self.assertEqual(status, 1)
-        self.assertIn("FAILED src/rtos/queue.c: is not as the commit has it: commit it, or say"
-                      " --dirty", lines)  # fmt: skip
+        self.assertIn(
+            "FAILED src/rtos/queue.c: is not as the commit has it: commit it, or say --dirty", lines
+        )
         self.assertEqual(self.run_it("--dirty")[0], 0)
         told = json.loads((self.out / MANIFEST).read_text(encoding="utf-8"))
         self.assertEqual(told["not_as_committed"], ["src/rtos/queue.c"])

@@ -97,8 +97,10 @@ class Commands(InFolder):
     def test_narrow_commands_that_follow_each_other_run_at_the_same_time(self) -> None:
         wide, narrow = (Command(f"{word}.json", (word,), word != "w") for word in "wn")
         other = Command("o.json", ("o",), narrow=True)
-        self.assertEqual(batches([narrow, other, wide, wide, narrow]),
-                         [[narrow, other], [wide], [wide], [narrow]])  # fmt: skip
+        self.assertEqual(
+            batches([narrow, other, wide, wide, narrow]),
+            [[narrow, other], [wide], [wide], [narrow]],
+        )
 
     def test_all_that_fail_at_the_same_time_are_told_in_their_order(self) -> None:
         slow, quick = (Command(f"{word}.json", (word,), narrow=True) for word in ("slow", "quick"))
@@ -130,14 +132,19 @@ class Elsewhere(InFolder):
 
     command = Command("prove/report.json", ("prove-all",))
     z3 = mock.Mock(version="4.8.12", sha256="a" * 64)
-    report = {VERDICT: "proved", MADE_FROM: STAMP,
-              "tools": {"z3": {"version": "4.8.12", "sha256": "a" * 64}}}  # fmt: skip
+    report = {
+        VERDICT: "proved",
+        MADE_FROM: STAMP,
+        "tools": {"z3": {"version": "4.8.12", "sha256": "a" * 64}},
+    }
 
     def told(self, proved: str = "1") -> list[str]:
         """Why the report cannot serve."""
         tools = mock.Mock(lock=Lock.read(), **{"versions.return_value": {"z3": self.z3}})
-        with mock.patch.dict(os.environ, KEEL_PROVED=proved), \
-                mock.patch("keel.evidence.commands.Toolchain", lambda: tools):  # fmt: skip
+        with (
+            mock.patch.dict(os.environ, KEEL_PROVED=proved),
+            mock.patch("keel.evidence.commands.Toolchain", lambda: tools),
+        ):
             return handed_over(context_in(self.folder))
 
     def told_of(self, **changed: Any) -> str:
@@ -158,10 +165,14 @@ class Elsewhere(InFolder):
         self.assertIn("is missing (KEEL_PROVED=1", problem)
 
     def test_one_of_another_commit_or_of_other_files(self) -> None:
-        self.assertIn("(commit 000000000000, here cccccccccccc)",
-                      self.told_of(**{MADE_FROM: {**STAMP, "commit": "0" * 40}}))  # fmt: skip
-        self.assertIn("(the same commit, other files)",
-                      self.told_of(**{MADE_FROM: {**STAMP, "tree": "0" * 64}}))  # fmt: skip
+        self.assertIn(
+            "(commit 000000000000, here cccccccccccc)",
+            self.told_of(**{MADE_FROM: {**STAMP, "commit": "0" * 40}}),
+        )
+        self.assertIn(
+            "(the same commit, other files)",
+            self.told_of(**{MADE_FROM: {**STAMP, "tree": "0" * 64}}),
+        )
         self.assertIn("(it names none)", self.told_of(**{MADE_FROM: None}))
 
     def test_one_that_says_that_something_failed_or_was_left_out(self) -> None:
@@ -169,9 +180,11 @@ class Elsewhere(InFolder):
         self.assertIn("does not say that all is proved", self.told_of(partial=True))
 
     def test_one_of_other_tools(self) -> None:
-        for version, digest, why in (("4.8.13", "a" * 64, "z3 4.8.13, here is 4.8.12"),
-                                     ("4.8.12", "b" * 64, "another file of z3"),
-                                     ("5.0", "a" * 64, "z3 5.0, locked is")):  # fmt: skip
+        for version, digest, why in (
+            ("4.8.13", "a" * 64, "z3 4.8.13, here is 4.8.12"),
+            ("4.8.12", "b" * 64, "another file of z3"),
+            ("5.0", "a" * 64, "z3 5.0, locked is"),
+        ):
             tools = {"z3": {"version": version, "sha256": digest}}
             self.assertIn(why, self.told_of(tools=tools))
 
@@ -202,8 +215,12 @@ class Verdicts(InFolder):
 
     def test_what_a_report_is_written_with(self) -> None:
         path = self.folder / "report.json"
-        for good, whole, said in ((True, True, "good"), (True, False, "partial"),
-                                  (False, True, "failed"), (False, False, "failed")):  # fmt: skip
+        for good, whole, said in (
+            (True, True, "good"),
+            (True, False, "partial"),
+            (False, True, "failed"),
+            (False, False, "failed"),
+        ):
             # What the report itself calls its verdict does not count.
             write_report(path, {VERDICT: "good", "x": 1}, self.folder, good=good, whole=whole)
             read = json.loads(path.read_text(encoding="utf-8"))
@@ -230,14 +247,20 @@ class Reports(InFolder):
         self.assertRegex(self.told('{"units": {')[0], r"^build/test/report\.json: is not whole: ")
 
     def test_stale(self) -> None:
-        for stamp, how in (({}, "it names none"),
-                           ({**STAMP, "commit": "0" * 40},
-                            "commit 000000000000, here cccccccccccc"),
-                           ({**STAMP, "commit": ""}, "commit none, here cccccccccccc"),
-                           ({**STAMP, "tree": "0" * 64}, "the same commit, other files")):
+        for stamp, how in (
+            ({}, "it names none"),
+            ({**STAMP, "commit": "0" * 40}, "commit 000000000000, here cccccccccccc"),
+            ({**STAMP, "commit": ""}, "commit none, here cccccccccccc"),
+            ({**STAMP, "tree": "0" * 64}, "the same commit, other files"),
+        ):
             told = self.told(json.dumps({MADE_FROM: stamp}))
-            self.assertEqual(told, ["build/test/report.json: speaks of another source than the one"
-                                    f" that is here ({how})"])  # fmt: skip
+            self.assertEqual(
+                told,
+                [
+                    "build/test/report.json: speaks of another source than the one"
+                    f" that is here ({how})"
+                ],
+            )
 
     def test_good(self) -> None:
         self.assertEqual(self.told(json.dumps({MADE_FROM: STAMP})), [])

@@ -102,11 +102,14 @@ class Faults(WholeProject):
         self.write_reports()
         units = self.report("prove/report.json")["units"]
         units["widget"]["wp"]["goal_list"][1]["status"] = "Timeout"
-        self.report("prove/report.json", units=units, verdict="failed",
-                    problems=[f"goal {GOAL}: Timeout"])  # fmt: skip
-        self.refused("build/prove/report.json: its verdict is 'failed': make prove",
-                     f"formal: goal {GOAL}: Timeout",
-                     f"requirements: WID-001: goal widget/{GOAL}: Timeout")  # fmt: skip
+        self.report(
+            "prove/report.json", units=units, verdict="failed", problems=[f"goal {GOAL}: Timeout"]
+        )
+        self.refused(
+            "build/prove/report.json: its verdict is 'failed': make prove",
+            f"formal: goal {GOAL}: Timeout",
+            f"requirements: WID-001: goal widget/{GOAL}: Timeout",
+        )
 
     def test_a_proof_that_failed_under_a_verdict_that_is_good(self) -> None:
         self.write_reports()
@@ -121,8 +124,10 @@ class Faults(WholeProject):
         self.write_reports()
         units = self.report("prove/report.json")["units"]
         self.assertEqual(units["widget"]["cbmc"]["harnesses"], {})
-        self.refused("function keel_widget_turn: build/prove/report.json has no harness of it",
-                     "WID-001: neither a harness nor a test names it")  # fmt: skip
+        self.refused(
+            "function keel_widget_turn: build/prove/report.json has no harness of it",
+            "WID-001: neither a harness nor a test names it",
+        )
 
     def test_a_label_that_was_dropped(self) -> None:
         self.change(HEADER, "ensures WID_001_turns:", "ensures turns:")
@@ -130,15 +135,20 @@ class Faults(WholeProject):
         self.refused("WID-001: CLAUSES is not what the headers say")
 
     def test_a_requirement_that_nothing_traces_to(self) -> None:
-        alone = "\n[REQUIREMENT]\nUID: WID-004\nTITLE: Alone\nVERIFICATION: proof\n" \
-                "STATEMENT: It shall stand alone.\n"  # fmt: skip
+        alone = (
+            "\n[REQUIREMENT]\nUID: WID-004\nTITLE: Alone\nVERIFICATION: proof\n"
+            "STATEMENT: It shall stand alone.\n"
+        )
         self.change("specs/requirements/widget.sdoc", "for ever.\n", f"for ever.\n{alone}")
         self.write_reports()
         self.refused("WID-004: no clause states it")
 
     def test_a_function_that_traces_to_nothing(self) -> None:
-        self.change("src/rtos/widget.c", "static void nudge", "void keel_extra(void)\n{\n}\n\n"
-                    "static void nudge")  # fmt: skip
+        self.change(
+            "src/rtos/widget.c",
+            "static void nudge",
+            "void keel_extra(void)\n{\n}\n\nstatic void nudge",
+        )
         self.write_reports()
         self.refused("keel_extra")
 
@@ -147,8 +157,10 @@ class Faults(WholeProject):
         suites = self.report("test/report.json")["suites"]
         suites["unit/widget"]["tests"]["it_loops"] = "failed"
         self.report("test/report.json", suites=suites, failed=1, verdict="failed")
-        self.refused("build/test/report.json: its verdict is 'failed': make test",
-                     "tests: unit/widget/it_loops failed on the host")  # fmt: skip
+        self.refused(
+            "build/test/report.json: its verdict is 'failed': make test",
+            "tests: unit/widget/it_loops failed on the host",
+        )
 
     def test_a_stale_result_of_mutation_is_told_before_any_command_is_run(self) -> None:
         write_text(self.root / "specs/mutation.toml", OLDER)
@@ -156,15 +168,19 @@ class Faults(WholeProject):
             status, lines = self.run_it("--dirty", "--out", str(self.out))
         run.assert_not_called()
         self.assertEqual(status, 1)
-        self.assertEqual(lines[-2], "FAILED specs/mutation.toml: widget: is stale, source, proofs"
-                                    " changed since: make mutate again")  # fmt: skip
+        self.assertEqual(
+            lines[-2],
+            "FAILED specs/mutation.toml: widget: is stale, source, proofs"
+            " changed since: make mutate again",
+        )
         self.assertIn("no command is run, nothing is written", lines[-1])
 
     def test_reports_of_an_older_source(self) -> None:
         self.write_reports()
         self.change("tests/unit/test_widget.c", "it_loops);", "it_loops); /* more */")
-        self.refused(f"build/test/report.json: {ELSEWHERE}",
-                     f"build/prove/report.json: {ELSEWHERE}")  # fmt: skip
+        self.refused(
+            f"build/test/report.json: {ELSEWHERE}", f"build/prove/report.json: {ELSEWHERE}"
+        )
 
     def test_a_source_that_changed_after_its_proof(self) -> None:
         self.write_reports()
@@ -221,5 +237,7 @@ class Faults(WholeProject):
         read = self.report("opinion/report.json")
         del read[VERDICT]
         self.write_report("opinion/report.json", read)
-        self.refused("tests: build/coverage/report.json: is missing",
-                     "build/opinion/report.json: has no verdict: make opinion")  # fmt: skip
+        self.refused(
+            "tests: build/coverage/report.json: is missing",
+            "build/opinion/report.json: has no verdict: make opinion",
+        )

@@ -31,8 +31,13 @@ class FormalTest(EvidenceTest):
     def setUp(self) -> None:
         super().setUp()
         asked = opinion.read_opinions(self.root).ask
-        answer = {"verdict": "proved", "wrong": "refuted", "properties": 9, "bounds": "",
-                  "wrong_body": "w"}  # fmt: skip
+        answer = {
+            "verdict": "proved",
+            "wrong": "refuted",
+            "properties": 9,
+            "bounds": "",
+            "wrong_body": "w",
+        }
         self.answers = {one.harness: dict(answer) for one in asked}
         self.opinions = {"harnesses": self.answers, STAMP: NOW}
 
@@ -76,8 +81,9 @@ class Goals(FormalTest):
     def test_an_assertion_belongs_to_its_harness(self) -> None:
         item = self.item("goal", "queue/keel_queue_add_harness/QUE_003_model")
         self.assertEqual(item.facts["engine"], "CBMC")
-        self.assertEqual(item.links, ("harness:queue/keel_queue_add_harness",
-                                      "requirement:QUE-003"))  # fmt: skip
+        self.assertEqual(
+            item.links, ("harness:queue/keel_queue_add_harness", "requirement:QUE-003")
+        )
 
     def test_a_goal_that_failed(self) -> None:
         self.goal()["status"] = "Timeout"
@@ -148,8 +154,9 @@ class Harnesses(FormalTest):
     def test_what_covers_a_bound(self) -> None:
         every = bounds.read_all(self.root)
         one = next(one for one in every if one.harness.name == "keel_stats_mean_us__exact_harness")
-        self.assertIn("harness:stats/keel_stats_mean_us_harness",
-                      bounds.cover_of(one, every, self.report))  # fmt: skip
+        self.assertIn(
+            "harness:stats/keel_stats_mean_us_harness", bounds.cover_of(one, every, self.report)
+        )
 
 
 class Ledger(FormalTest):
@@ -157,16 +164,18 @@ class Ledger(FormalTest):
 
     def test_every_assumption_is_an_item_with_an_owner(self) -> None:
         facts = self.item("assumption", "A-12").facts
-        self.assertEqual((facts["owner"], facts["how it is verified"]),
-                         ("integrator", "test on the board"))  # fmt: skip
+        self.assertEqual(
+            (facts["owner"], facts["how it is verified"]), ("integrator", "test on the board")
+        )
 
     def test_an_assumption_without_an_owner(self) -> None:
         self.replace(ledger.FILE, "| `keel_clock_fn_t` | integrator |", "| `keel_clock_fn_t` | |")
         self.assert_problem(self.part(), "specs/soundness.md:", "A-12: owner: missing")
 
     def test_an_owner_that_is_none(self) -> None:
-        self.replace(ledger.FILE, "| `keel_clock_fn_t` | integrator |",
-                     "| `keel_clock_fn_t` | nobody |")  # fmt: skip
+        self.replace(
+            ledger.FILE, "| `keel_clock_fn_t` | integrator |", "| `keel_clock_fn_t` | nobody |"
+        )
         self.assert_problem(self.part(), "A-12: owner: nobody is none of integrator, Keel, tool")
 
     def test_an_assumption_that_nobody_verifies(self) -> None:
@@ -238,8 +247,9 @@ class Opinions(FormalTest):
 
     def test_a_verdict_counts_only_with_what_was_asked(self) -> None:
         self.assertEqual(esbmc.judged(OUTPUT, ()), ("proved", 2))
-        self.assertEqual(esbmc.judged(OUTPUT.replace("CLK_002_model:", "some"), ())[0],
-                         "checked no assertion")  # fmt: skip
+        self.assertEqual(
+            esbmc.judged(OUTPUT.replace("CLK_002_model:", "some"), ())[0], "checked no assertion"
+        )
         unknown = "WARNING: no body for function __CPROVER_equal\n"
         self.assertEqual(esbmc.judged(unknown + OUTPUT, ())[0], "does not know __CPROVER_equal")
         self.assertEqual(esbmc.judged("ERROR: PARSING ERROR\n", ())[0], "ERROR: PARSING ERROR")
@@ -291,8 +301,9 @@ class Kept(FormalTest):
         harnesses = bounds.read_all(self.root)
         asked = opinion.questions(opinion.read_opinions(self.root), harnesses)
         question = next(one for one in asked if one.harness.name == "keel_queue_init_harness")
-        program = esbmc.Esbmc(["esbmc"], Path("h"), unittest.mock.Mock(), self.root,
-                              self.root / "scratch")  # fmt: skip
+        program = esbmc.Esbmc(
+            ["esbmc"], Path("h"), unittest.mock.Mock(), self.root, self.root / "scratch"
+        )
         words = program.command(question, question.wrong)
         changed = self.root / "scratch/init_skips_last/src/rtos/queue.c"
         self.assertIn(str(changed), words)
@@ -345,8 +356,10 @@ class Reviews(FormalTest):
     def test_a_signature_on_a_unit_that_is_not_there(self) -> None:
         self.sign()
         self.replace(reviews.FILE, 'unit = "queue"', 'unit = "cue"')
-        self.assert_problem(self.part(), "specs/reviews.toml:7: review number 1: unit: there is no"
-                                         " unit cue with proofs")  # fmt: skip
+        self.assert_problem(
+            self.part(),
+            "specs/reviews.toml:7: review number 1: unit: there is no unit cue with proofs",
+        )
 
     def test_a_file_that_is_missing(self) -> None:
         (self.root / reviews.FILE).unlink()

@@ -35,12 +35,16 @@ def firmware_report() -> dict[str, Any]:
     """A small image."""
     digest = hashlib.sha256(IMAGE).hexdigest()
     return {
-        "tools": {"arm-none-eabi-gcc": "12.2.1"}, "flags": FLAGS, "link_flags": ["-static"],
-        "load_address": 0x8000, "sources": {"src/x.c": "0"}, "checks": [],
+        "tools": {"arm-none-eabi-gcc": "12.2.1"},
+        "flags": FLAGS,
+        "link_flags": ["-static"],
+        "load_address": 0x8000,
+        "sources": {"src/x.c": "0"},
+        "checks": [],
         "elf": {"file": "keel.elf", "sha256": digest},
         "binary": {"file": "keel.bin", "sha256": digest, "size": 5},
         "regions": {"FLASH": {"origin": 0x8000, "size": 4096, "used": 5}},
-    }  # fmt: skip
+    }
 
 
 def target_report() -> dict[str, Any]:
@@ -130,9 +134,19 @@ class Flags(unittest.TestCase):
             self.assertEqual(len(list(flag_problems(left))), 1, flag)
 
     def test_flags_that_are_forbidden(self) -> None:
-        for flag in ("-Ofast", "-ffinite-math-only", "-ffp-contract=fast", "-mcpu=cortex-m4",
-                     "-mfpu=fpv4-sp-d16", "-fno-short-enums", "-fsigned-char", "-std=gnu99",
-                     "-DKEEL_QUEUE_CAPACITY=8u", "-flto", "-mbig-endian"):  # fmt: skip
+        for flag in (
+            "-Ofast",
+            "-ffinite-math-only",
+            "-ffp-contract=fast",
+            "-mcpu=cortex-m4",
+            "-mfpu=fpv4-sp-d16",
+            "-fno-short-enums",
+            "-fsigned-char",
+            "-std=gnu99",
+            "-DKEEL_QUEUE_CAPACITY=8u",
+            "-flto",
+            "-mbig-endian",
+        ):
             (problem,) = flag_problems([*FLAGS, flag])
             self.assertIn(f"the flag {flag} is forbidden", problem)
 

@@ -106,9 +106,13 @@ class Objectives(Parts):
 
     def test_statuses_are_counted_and_never_called_compliant(self) -> None:
         self.assertEqual(self.make(), "")
-        self.assertEqual(self.part.summary,
-                         {"A standard": "1 met as input, 1 partly, 1 not addressed; "
-                                        "2 of 3 numbers from memory alone"})  # fmt: skip
+        self.assertEqual(
+            self.part.summary,
+            {
+                "A standard": "1 met as input, 1 partly, 1 not addressed; "
+                "2 of 3 numbers from memory alone"
+            },
+        )
         first = self.part.items[0]
         self.assertEqual((first.id, first.links), ("S-1/1", ("part:formal", "file:a.md")))
         self.assertEqual([item.state for item in self.part.items], ["good", "open", "open"])
@@ -129,17 +133,22 @@ class Objectives(Parts):
         self.assertIn("on", self.make("on = 2026-11-22, ", ""))
 
     def test_an_artefact_that_does_not_exist(self) -> None:
-        for old, new in (("part:formal", "part:magic"), ("file:a.md", "file:b.md"),
-                         ("part:tests", "nonsense")):  # fmt: skip
+        for old, new in (
+            ("part:formal", "part:magic"),
+            ("file:a.md", "file:b.md"),
+            ("part:tests", "nonsense"),
+        ):
             told = self.make(old, new)
             self.assertRegex(told, rf"s\.toml:\d+: objective \d.*there is no artefact {new}$")
 
     def test_a_status_without_artefact_or_reason(self) -> None:
-        self.assertIn("partly, but why does not say what is missing",
-                      self.make(', why = "Not yet"'))  # fmt: skip
+        self.assertIn(
+            "partly, but why does not say what is missing", self.make(', why = "Not yet"')
+        )
         self.assertIn("no, but why does not say", self.make(', why = "No ground"'))
-        self.assertIn("input, but no artefact is named",
-                      self.make(', by = ["part:formal", "file:a.md"]'))  # fmt: skip
+        self.assertIn(
+            "input, but no artefact is named", self.make(', by = ["part:formal", "file:a.md"]')
+        )
 
     def test_a_strange_status_and_an_id_twice(self) -> None:
         self.assertIn("status", self.make('"input"', '"compliant"'))
@@ -191,8 +200,10 @@ class Plans(Parts):
         self.write(plans.PLAN, text)
         self.assertEqual(plans.make(self.context).problems, ())
         self.write(plans.PLAN, text.replace("## Problem reporting", "## Bugs"))
-        self.assertEqual(plans.make(self.context).problems,
-                         ("docs/plan.md: there is no section Problem reporting",))  # fmt: skip
+        self.assertEqual(
+            plans.make(self.context).problems,
+            ("docs/plan.md: there is no section Problem reporting",),
+        )
 
     def test_words_and_tables_come_over(self) -> None:
         part = plans.make(replace(self.context, root=ROOT))

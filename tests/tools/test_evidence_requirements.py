@@ -21,36 +21,55 @@ class RequirementsTest(TracedProject):
     def test_all_is_well(self) -> None:
         part = self.part(make)
         self.assertEqual(part.problems, ())
-        self.assertEqual(self.states(), {
-            "HLR-001": "good", "HLR-002": "good", "WID-001": "good", "WID-002": "good",
-            "WID-003": "told"})  # fmt: skip
+        self.assertEqual(
+            self.states(),
+            {
+                "HLR-001": "good",
+                "HLR-002": "good",
+                "WID-001": "good",
+                "WID-002": "good",
+                "WID-003": "told",
+            },
+        )
         self.assertEqual(part.summary["high-level requirements"], "2")
 
     def test_a_reviewer_reaches_goals_harness_and_parent(self) -> None:
         items = {item.id: item for item in self.part(make).items}
-        self.assertEqual(items["WID-001"].links, (
-            "requirement:HLR-001", "function:keel_widget_turn",
-            "goal:widget/keel_widget_turn_ensures_WID_001_turns",
-            "goal:widget/keel_widget_turn_ensures_WID_001_range",
-            "goal:widget/keel_widget_turn_harness/WID_001_turns",
-            "harness:widget/keel_widget_turn_harness"))  # fmt: skip
-        self.assertEqual(items["WID-002"].links, (
-            "requirement:HLR-002", "test:unit/widget/it_loops"))  # fmt: skip
+        self.assertEqual(
+            items["WID-001"].links,
+            (
+                "requirement:HLR-001",
+                "function:keel_widget_turn",
+                "goal:widget/keel_widget_turn_ensures_WID_001_turns",
+                "goal:widget/keel_widget_turn_ensures_WID_001_range",
+                "goal:widget/keel_widget_turn_harness/WID_001_turns",
+                "harness:widget/keel_widget_turn_harness",
+            ),
+        )
+        self.assertEqual(
+            items["WID-002"].links, ("requirement:HLR-002", "test:unit/widget/it_loops")
+        )
         self.assertEqual(items["HLR-001"].links, ("requirement:WID-001",))
         self.assertIn("Rationale: Widgets that stand still", items["HLR-001"].text)
         self.assertEqual(items["HLR-001"].facts["source"], "eq. 1; section III-A")
 
     def test_departures_and_derived_ones_are_listed_with_their_reasons(self) -> None:
         tables = {table.title: table.rows for table in self.part(make).tables}
-        self.assertEqual(tables["Departures from the paper"], (
-            ("requirement:HLR-002", "Surprising", "none", "The paper's widgets do not loop."),))
-        self.assertEqual([row[0] for row in tables["Derived requirements"]],
-                         ["requirement:HLR-002", "requirement:WID-003"])  # fmt: skip
+        self.assertEqual(
+            tables["Departures from the paper"],
+            (("requirement:HLR-002", "Surprising", "none", "The paper's widgets do not loop."),),
+        )
+        self.assertEqual(
+            [row[0] for row in tables["Derived requirements"]],
+            ["requirement:HLR-002", "requirement:WID-003"],
+        )
 
     def test_a_goal_that_is_not_proved(self) -> None:
         self.proofs["wp"]["goal_list"][0]["status"] = "Timeout"
-        self.assertEqual(self.problems(make), [
-            "WID-001: goal widget/keel_widget_turn_ensures_WID_001_turns: Timeout"])  # fmt: skip
+        self.assertEqual(
+            self.problems(make),
+            ["WID-001: goal widget/keel_widget_turn_ensures_WID_001_turns: Timeout"],
+        )
         self.assertEqual(self.states()["WID-001"], "bad")
         self.assertEqual(self.states()["HLR-001"], "bad")
 
@@ -58,31 +77,41 @@ class RequirementsTest(TracedProject):
         harness = self.proofs["cbmc"]["harnesses"]["keel_widget_turn_harness"]
         harness["assertions"][0]["status"] = "FAILURE"
         harness["proved"] = 2
-        self.assertEqual(self.problems(make), [
-            "WID-001: goal widget/keel_widget_turn_harness/WID_001_turns: FAILURE",
-            "WID-001: harness widget/keel_widget_turn_harness: 2 of 3 proved"])  # fmt: skip
+        self.assertEqual(
+            self.problems(make),
+            [
+                "WID-001: goal widget/keel_widget_turn_harness/WID_001_turns: FAILURE",
+                "WID-001: harness widget/keel_widget_turn_harness: 2 of 3 proved",
+            ],
+        )
 
     def test_a_harness_that_is_not_sound(self) -> None:
         self.proofs["cbmc"]["harnesses"]["keel_widget_turn_harness"]["sound"] = False
-        self.assertEqual(self.problems(make), [
-            "WID-001: harness widget/keel_widget_turn_harness: 3 of 3 proved, not sound"])
+        self.assertEqual(
+            self.problems(make),
+            ["WID-001: harness widget/keel_widget_turn_harness: 3 of 3 proved, not sound"],
+        )
 
     def test_a_test_that_fails_on_the_target_alone(self) -> None:
         self.reports["test-target/report.json"]["suites"] = {
-            "unit/widget": {"tests": {"it_loops": "failed"}}}  # fmt: skip
-        self.assertEqual(self.problems(make), [
-            "WID-002: test unit/widget/it_loops: passed, failed"])  # fmt: skip
+            "unit/widget": {"tests": {"it_loops": "failed"}}
+        }
+        self.assertEqual(
+            self.problems(make), ["WID-002: test unit/widget/it_loops: passed, failed"]
+        )
 
     def test_a_test_that_did_not_run(self) -> None:
         self.reports["test/report.json"]["suites"] = {}
-        self.assertEqual(self.problems(make), [
-            "WID-002: TESTS lists it_loops, of which no report has a verdict"])  # fmt: skip
+        self.assertEqual(
+            self.problems(make), ["WID-002: TESTS lists it_loops, of which no report has a verdict"]
+        )
         self.assertEqual(self.states()["HLR-002"], "open")
 
     def test_proofs_that_are_gone(self) -> None:
         self.reports["prove/report.json"]["units"] = {}
-        self.assertEqual(self.problems(make), [
-            "WID-001: VERIFICATION says proof, and no report has one"])  # fmt: skip
+        self.assertEqual(
+            self.problems(make), ["WID-001: VERIFICATION says proof, and no report has one"]
+        )
 
     def test_a_harness_that_compares_with_a_model_proves_what_the_model_names(self) -> None:
         self.proofs["wp"]["goal_list"] = []
@@ -99,9 +128,13 @@ class RequirementsTest(TracedProject):
 
     def test_a_report_of_another_source(self) -> None:
         self.reports["test/report.json"]["made_from"] = {**STAMP, "tree": "other"}
-        self.assertEqual(self.problems(make), [
-            "build/test/report.json: speaks of another source than the one that is here "
-            "(the same commit, other files)"])
+        self.assertEqual(
+            self.problems(make),
+            [
+                "build/test/report.json: speaks of another source than the one that is here "
+                "(the same commit, other files)"
+            ],
+        )
 
     def test_no_requirements(self) -> None:
         for name in (LOW, "specs/requirements/high_level.sdoc"):
@@ -112,6 +145,8 @@ class RequirementsTest(TracedProject):
         self.write(LOW, small.SDOC.replace("TESTS: it_loops", "TESTS: tests/target/faults.c"))
         self.write("tests/target/faults.c", "")
         self.reports["test-target/report.json"]["suites"] = {
-            "fault/undefined": {"tests": {"fault/undefined": "failed"}}}  # fmt: skip
-        self.assertEqual(self.problems(make), [
-            "WID-002: test fault/undefined/fault/undefined: failed"])  # fmt: skip
+            "fault/undefined": {"tests": {"fault/undefined": "failed"}}
+        }
+        self.assertEqual(
+            self.problems(make), ["WID-002: test fault/undefined/fault/undefined: failed"]
+        )

@@ -22,8 +22,10 @@ from keel.evidence.package import write_package
 ROOT = Path(__file__).resolve().parents[2]
 
 FAULTS = (Path(__file__).parent / "page_faults.js").read_text(encoding="utf-8")
-LINKS = "[...document.querySelectorAll('a[href]')].map(a => a.href.baseVal === undefined ?" \
-        " a.href : new URL(a.href.baseVal, document.baseURI).href)"  # fmt: skip
+LINKS = (
+    "[...document.querySelectorAll('a[href]')].map(a => a.href.baseVal === undefined ?"
+    " a.href : new URL(a.href.baseVal, document.baseURI).href)"
+)
 IDS = "[...document.querySelectorAll('[id]')].map(one => one.id)"
 DESKTOP, TABLET = (1440, 900), (820, 1180)
 SHOTS = ROOT / "build/test/evidence-site"
@@ -84,12 +86,17 @@ class Links(Site):
         for page in ("index.html", "site/graph.html", f"site/function-{FUNCTION}.html"):
             self.open(page)
             self.browser.evaluate("document.getElementById('search').focus()")
-        asked = [one["params"]["request"]["url"] for one in self.browser.events
-                 if one.get("method") == "Network.requestWillBeSent"]  # fmt: skip
+        asked = [
+            one["params"]["request"]["url"]
+            for one in self.browser.events
+            if one.get("method") == "Network.requestWillBeSent"
+        ]
         self.assertEqual([url for url in asked if not url.startswith("file:")], [])
         self.assertGreater(len(asked), 3)
-        self.assertEqual([one for one in self.browser.events
-                          if one.get("method") == "Runtime.exceptionThrown"], [])  # fmt: skip
+        self.assertEqual(
+            [one for one in self.browser.events if one.get("method") == "Runtime.exceptionThrown"],
+            [],
+        )
 
     def test_a_link_to_nothing_is_found(self) -> None:
         broken = self.place / "site/broken.html"
@@ -112,16 +119,24 @@ class Ways(Site):
         self.browser.click("#goal + details summary")
         self.follow(f"td a[href$='{GOAL}']")
         self.assertTrue(self.browser.evaluate("location.href").endswith(GOAL))
-        self.assertIn("ensures_QUE_001_3",
-                      self.browser.evaluate("document.querySelector(':target').textContent"))
+        self.assertIn(
+            "ensures_QUE_001_3",
+            self.browser.evaluate("document.querySelector(':target').textContent"),
+        )
 
     def test_the_matrix_and_the_graph_lead_to_the_proof(self) -> None:
         self.open("index.html")
         self.follow(".matrix a[href$='trace-queue.html']")
         self.follow(f"svg a[href$='function-{FUNCTION}.html'] rect")
         text = self.browser.evaluate("document.querySelector('main').innerText")
-        for proof in ("@ ensures QUE_001_count", "61 goals", "periods: 5 bits", "completely",
-                      "8 mutants", "QUE-001"):  # fmt: skip
+        for proof in (
+            "@ ensures QUE_001_count",
+            "61 goals",
+            "periods: 5 bits",
+            "completely",
+            "8 mutants",
+            "QUE-001",
+        ):
             self.assertIn(proof, text)
 
     def test_the_search_finds_a_function(self) -> None:
@@ -132,24 +147,27 @@ class Ways(Site):
             "new Promise(done => { const look = () => { const one ="
             " document.querySelector('#results a'); one ? done(one.firstChild.textContent) :"
             " setTimeout(look, 20); }; look(); })"
-        )  # fmt: skip
+        )
         self.assertEqual(found, FUNCTION)
         self.browser.do_and_load(lambda: self.browser.press("Enter"))
-        self.assertTrue(self.browser.evaluate("location.pathname").endswith(
-            f"/site/function-{FUNCTION}.html"))  # fmt: skip
+        self.assertTrue(
+            self.browser.evaluate("location.pathname").endswith(f"/site/function-{FUNCTION}.html")
+        )
 
     def test_a_filter_leaves_the_rows_that_have_its_words(self) -> None:
         self.open("site/all-requirements.html")
         self.browser.evaluate("document.querySelector('.filter').focus()")
         self.browser.type("VOT-01")
         left = self.browser.evaluate(
-            "[...document.querySelectorAll('tbody tr')].filter(row => !row.hidden).length")
+            "[...document.querySelectorAll('tbody tr')].filter(row => !row.hidden).length"
+        )
         self.assertEqual(left, 3)
 
     def test_a_box_of_the_graph_makes_its_lines_stand_out(self) -> None:
         self.open("site/trace-queue.html")
         self.browser.evaluate(
-            f"document.querySelector('svg a[data-node=\"function:{FUNCTION}\"]').focus()")
+            f"document.querySelector('svg a[data-node=\"function:{FUNCTION}\"]').focus()"
+        )
         on = self.browser.evaluate("document.querySelectorAll('svg path.on').length")
         every = self.browser.evaluate("document.querySelectorAll('svg path').length")
         self.assertTrue(2 <= on < every, (on, every))
@@ -162,15 +180,20 @@ class Looks(Site):
             self.browser.window(*size, dark=dark)
             for page in self.pages():
                 self.open(page)
-                self.browser.evaluate("document.querySelectorAll('details').forEach(one =>"
-                                      " { one.open = true; })")  # fmt: skip
+                self.browser.evaluate(
+                    "document.querySelectorAll('details').forEach(one => { one.open = true; })"
+                )
                 wrong += [f"{name}: {page}: {fault}" for fault in self.browser.evaluate(FAULTS)]
         self.assertEqual(wrong, [])
 
     def test_screenshots_for_people(self) -> None:
         for name, size in (("desktop", DESKTOP), ("tablet", TABLET)):
-            for page in ("index.html", "site/graph.html", "site/trace-queue.html",
-                         *(f"site/function-{one}.html" for one in (FUNCTION, LONG))):  # fmt: skip
+            for page in (
+                "index.html",
+                "site/graph.html",
+                "site/trace-queue.html",
+                *(f"site/function-{one}.html" for one in (FUNCTION, LONG)),
+            ):
                 self.browser.window(*size)
                 self.open(page)
                 self.shot(f"{name}-{Path(page).stem[:40]}")
@@ -185,6 +208,11 @@ class Looks(Site):
         )
         self.browser.open(page.as_uri())
         told = "\n".join(self.browser.evaluate(FAULTS))
-        for fault in ("is cut: much", "contrast of 2.3: faint", "outside of the window: far",
-                      "wider than its box: wide", "the page is too wide"):  # fmt: skip
+        for fault in (
+            "is cut: much",
+            "contrast of 2.3: faint",
+            "outside of the window: far",
+            "wider than its box: wide",
+            "the page is too wide",
+        ):
             self.assertIn(fault, told)

@@ -39,8 +39,9 @@ class StrengthTest(EvidenceTest):
         super().setUp()
         (self.root / RECORD).unlink()
         self.report["tools"] = {"cbmc": {"version": "6.6.0", "sha256": "c", "parts": []}}
-        self.verdicts = [Verdict(mutant, "killed", "", dict(KILLED))
-                         for mutant in mutants(self.unit.header)][:4]  # fmt: skip
+        self.verdicts = [
+            Verdict(mutant, "killed", "", dict(KILLED)) for mutant in mutants(self.unit.header)
+        ][:4]
 
     @property
     def unit(self) -> Unit:
@@ -58,8 +59,12 @@ class StrengthTest(EvidenceTest):
     def explain(self, number: int, reason: str) -> None:
         """A person accepts a mutant, with a reason."""
         mutant = self.verdicts[number].mutant
-        lines = {"function": mutant.function, "original": mutant.before, "mutant": mutant.after,
-                 "reason": reason}  # fmt: skip
+        lines = {
+            "function": mutant.function,
+            "original": mutant.before,
+            "mutant": mutant.after,
+            "reason": reason,
+        }
         text = "".join(f"{key} = {json.dumps(value)}\n" for key, value in lines.items())
         path = self.root / "proofs/range/equivalent.toml"
         path.write_text(f"[[equivalent]]\n{text}", encoding="utf-8")
@@ -230,8 +235,11 @@ class Mutants(StrengthTest):
         self.record()
         after = mutant_table.read(self.root)
         self.assertEqual(list(after.unit), list(before.unit))
-        changed = [name for name in before.unit if before.unit[name] != after.unit[name]
-                   or before.made_of(name) != after.made_of(name)]  # fmt: skip
+        changed = [
+            name
+            for name in before.unit
+            if before.unit[name] != after.unit[name] or before.made_of(name) != after.made_of(name)
+        ]
         self.assertEqual(changed, ["range"])
         self.assertEqual(after.unit["range"].mutants, 4)
 
@@ -253,8 +261,9 @@ class Mutants(StrengthTest):
         self.explain(3, "no difference")
         self.record()
         self.replace(RECORD, "{entry = 1", "{entry = 2")
-        self.assert_problem(self.part(), OF_RANGE, "accepted: there is no entry 2 in"
-                            " proofs/range/equivalent.toml")  # fmt: skip
+        self.assert_problem(
+            self.part(), OF_RANGE, "accepted: there is no entry 2 in proofs/range/equivalent.toml"
+        )
 
     def test_a_unit_that_is_not_there(self) -> None:
         self.record()
@@ -279,8 +288,9 @@ class Mistakes(StrengthTest):
 
     def test_a_mistake_that_nobody_refuses(self) -> None:
         self.report["units"]["queue"]["cbmc"]["negative"]["list"]["add_overwrites"] = False
-        self.assert_problem(self.part(), "queue/wrong-add_overwrites", "is not refused",
-                            "keel_queue_add_harness")  # fmt: skip
+        self.assert_problem(
+            self.part(), "queue/wrong-add_overwrites", "is not refused", "keel_queue_add_harness"
+        )
 
     def test_a_mistake_without_a_verdict(self) -> None:
         del self.report["units"]["voter"]["gappa"]["negative"]["list"]["mean_rounds_twice.g"]
@@ -313,14 +323,16 @@ class Blocks(StrengthTest):
 
     def test_a_block_that_is_not_reached_without_a_reason(self) -> None:
         self.coverage("queue", "keel_queue_add_harness")["reached"] -= 1
-        self.assert_problem(self.part(), "queue/keel_queue_add_harness", "does not reach 1 blocks",
-                            "a reason for 0")  # fmt: skip
+        self.assert_problem(
+            self.part(), "queue/keel_queue_add_harness", "does not reach 1 blocks", "a reason for 0"
+        )
 
     def test_a_reason_for_what_is_reached(self) -> None:
         coverage = self.coverage("pass", "keel_pass_turn_harness")
         coverage["reached"] = coverage["blocks"]
-        self.assert_problem(self.part(), "pass/keel_pass_turn_harness", "0 blocks",
-                            "a reason for 12")  # fmt: skip
+        self.assert_problem(
+            self.part(), "pass/keel_pass_turn_harness", "0 blocks", "a reason for 12"
+        )
 
     def test_a_function_that_no_harness_covers(self) -> None:
         self.replace("src/rtos/queue.c", "static ", "static void lonely(void)\n{\n}\n\nstatic ")
@@ -347,11 +359,16 @@ class Blocks(StrengthTest):
     def test_blocks_where_there_is_no_call_through_a_pointer(self) -> None:
         self.coverage("queue", "keel_queue_add_harness")["reached"] -= 1
         reasons = self.root / "specs/unreached.toml"
-        entry = ('\n[[unreached]]\nharness = "queue/keel_queue_add_harness"\nblocks = 1\n'
-                 'reason = "as in keel_pass_turn_harness"\n')  # fmt: skip
+        entry = (
+            '\n[[unreached]]\nharness = "queue/keel_queue_add_harness"\nblocks = 1\n'
+            'reason = "as in keel_pass_turn_harness"\n'
+        )
         reasons.write_text(reasons.read_text("utf-8") + entry, "utf-8")
-        self.assert_problem(self.part(), "specs/unreached.toml: queue/keel_queue_add_harness",
-                            "nothing that it covers calls through a pointer")  # fmt: skip
+        self.assert_problem(
+            self.part(),
+            "specs/unreached.toml: queue/keel_queue_add_harness",
+            "nothing that it covers calls through a pointer",
+        )
 
     def test_an_entry_that_is_of_nothing(self) -> None:
         self.replace("specs/unreached.toml", "keel_pass_turn__once_harness", "keel_gone_harness")

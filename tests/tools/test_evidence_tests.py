@@ -19,8 +19,14 @@ GAP = {"file": "src/x.c", "line": 3, "text": "return 1;", "what": "line not exec
 
 def run_report() -> dict[str, Any]:
     """A run of one suite with one test, which passed."""
-    outcome = {"passed": 1, "failed": 0, "seconds": 0.1, "tests": {TEST: "passed"}, "failures": [],
-               "skipped": {}}  # fmt: skip
+    outcome = {
+        "passed": 1,
+        "failed": 0,
+        "seconds": 0.1,
+        "tests": {TEST: "passed"},
+        "failures": [],
+        "skipped": {},
+    }
     return {"passed": 1, "failed": 0, "filter": "", "suites": {QUEUE: outcome}}
 
 
@@ -28,19 +34,37 @@ def coverage_report() -> dict[str, Any]:
     """A file with one function, all covered."""
     counts = {"lines": [3, 3], "branches": [4, 4], "mcdc": [0, 0]}
     functions = {"keel_x": counts, "small": counts}
-    return {"total": counts, "files": {"src/x.c": {**counts, "functions": functions}}, "gaps": [],
-            "excluded": [], "unused_exclusions": []}  # fmt: skip
+    return {
+        "total": counts,
+        "files": {"src/x.c": {**counts, "functions": functions}},
+        "gaps": [],
+        "excluded": [],
+        "unused_exclusions": [],
+    }
 
 
-CODE_GAP = {"file": "src/x.c", "line": 3, "text": "if (a) {", "function": "keel_x", "offset": 4,
-            "instruction": "bhi", "never": "taken"}  # fmt: skip
+CODE_GAP = {
+    "file": "src/x.c",
+    "line": 3,
+    "text": "if (a) {",
+    "function": "keel_x",
+    "offset": 4,
+    "instruction": "bhi",
+    "never": "taken",
+}
 
 
 def code_report() -> dict[str, Any]:
     """One branch, seen both ways."""
     counts = {"branch": 1, "conditions": 1, "outcomes": 2, "seen": 2}
-    return {"total": counts, "files": {"src/x.c": {**counts, "functions": {"keel_x": counts}}},
-            "gaps": [], "explained": [], "stale_reasons": [], "untraced": ["long"]}  # fmt: skip
+    return {
+        "total": counts,
+        "files": {"src/x.c": {**counts, "functions": {"keel_x": counts}}},
+        "gaps": [],
+        "explained": [],
+        "stale_reasons": [],
+        "untraced": ["long"],
+    }
 
 
 def contracts_report() -> dict[str, Any]:
@@ -161,14 +185,15 @@ class Tests(PartTest):
         stale = {"file": "src/x.c", "line": "return 2;", "reason": "why"}
         self.write("coverage/report.json", {**coverage_report(), "unused_exclusions": [stale]})
         self.assertEqual(
-            self.problem(),
-            "specs/coverage_exclusions.toml: excludes nothing: src/x.c: return 2;",
+            self.problem(), "specs/coverage_exclusions.toml: excludes nothing: src/x.c: return 2;"
         )
 
     def test_a_branch_without_a_reason(self) -> None:
         self.write("coverage-target/report.json", {**code_report(), "gaps": [CODE_GAP]})
-        self.assertEqual(self.problem(), "src/x.c:3: keel_x+0x4 bhi: never taken, and no reason is "
-                                         "given: if (a) {")  # fmt: skip
+        self.assertEqual(
+            self.problem(),
+            "src/x.c:3: keel_x+0x4 bhi: never taken, and no reason is given: if (a) {",
+        )
 
     def test_a_branch_with_a_reason(self) -> None:
         report = {**code_report(), "explained": [{**CODE_GAP, "reason": "why"}]}
@@ -178,11 +203,17 @@ class Tests(PartTest):
         self.assertEqual(part.tables[4].rows[0][2:], ("keel_x+0x4 bhi", "taken", "why"))
 
     def test_a_stale_reason_for_a_branch(self) -> None:
-        stale = {"function": "keel_x", "line": "if (b) {", "never": "taken", "instructions": 1,
-                 "reason": "why"}  # fmt: skip
+        stale = {
+            "function": "keel_x",
+            "line": "if (b) {",
+            "never": "taken",
+            "instructions": 1,
+            "reason": "why",
+        }
         self.write("coverage-target/report.json", {**code_report(), "stale_reasons": [stale]})
-        self.assertIn("specs/object_coverage.toml: fits another number of gaps than 1: keel_x",
-                      self.problem())  # fmt: skip
+        self.assertIn(
+            "specs/object_coverage.toml: fits another number of gaps than 1: keel_x", self.problem()
+        )
 
     def test_a_violated_contract(self) -> None:
         report = contracts_report()

@@ -73,9 +73,11 @@ class Rules(unittest.TestCase):
         for told, problem in (
             ("6.5.0", "build/x.json: was made with cbmc 6.5.0, locked is 6.6 or later, before 6.7"),
             ("6.6.1", "build/x.json: was made with cbmc 6.6.1, here is 6.6.0"),
-            ({"version": "6.6.0", "sha256": "02"},
-             "build/x.json: was made with another file of cbmc than the one that is here"),
-        ):  # fmt: skip
+            (
+                {"version": "6.6.0", "sha256": "02"},
+                "build/x.json: was made with another file of cbmc than the one that is here",
+            ),
+        ):
             self.assertEqual(self.report(told), [problem])
 
     def test_a_tool_without_an_entry_and_an_entry_without_a_tool(self) -> None:
@@ -129,8 +131,12 @@ class Entries(unittest.TestCase):
 
     def test_a_test_that_is_not_there(self) -> None:
         read = part_tools.read_settings(ROOT)
-        changed = [one.model_copy(update={"tests": ["test_lint/test_nothing"]})
-                   if one.name == "cppcheck" else one for one in read.tool]  # fmt: skip
+        changed = [
+            one.model_copy(update={"tests": ["test_lint/test_nothing"]})
+            if one.name == "cppcheck"
+            else one
+            for one in read.tool
+        ]
         specs = part_tools.wanted(Toolchain().lock)
         problems = list(part_tools.entry_problems(Settings(tool=changed), specs, ROOT))
         told = "specs/tools.toml: tool cppcheck: there is no test test_lint/test_nothing"

@@ -19,29 +19,51 @@ class TraceTest(TracedProject):
         part = self.part(make)
         self.assertEqual(part.problems, ())
         self.assertEqual([item.state for item in part.items], ["good"] * 3)
-        self.assertEqual(part.tables[0].rows, (
-            ("widget", "3", "1", "2", "2", "1", "", "1", "1", ""),))  # fmt: skip
+        self.assertEqual(
+            part.tables[0].rows, (("widget", "3", "1", "2", "2", "1", "", "1", "1", ""),)
+        )
 
     def test_a_function_leads_both_ways(self) -> None:
         items = {item.id: item for item in self.part(make).items}
-        self.assertEqual(items["keel_widget_turn"].links, (
-            "requirement:WID-001", "goal:widget/keel_widget_turn_ensures_WID_001_turns",
-            "goal:widget/keel_widget_turn_ensures_WID_001_range",
-            "goal:widget/keel_widget_turn_harness/WID_001_turns",
-            "harness:widget/keel_widget_turn_harness"))  # fmt: skip
+        self.assertEqual(
+            items["keel_widget_turn"].links,
+            (
+                "requirement:WID-001",
+                "goal:widget/keel_widget_turn_ensures_WID_001_turns",
+                "goal:widget/keel_widget_turn_ensures_WID_001_range",
+                "goal:widget/keel_widget_turn_harness/WID_001_turns",
+                "harness:widget/keel_widget_turn_harness",
+            ),
+        )
         self.assertEqual(items["nudge"].links, ("requirement:WID-001", "function:push"))
         self.assertEqual(items["nudge"].facts["traces"], "by its callers")
 
     def test_a_requirement_with_its_evidence_in_a_row(self) -> None:
         rows = {row[0]: row[1:] for row in self.part(make).tables[1].rows}
-        self.assertEqual(rows["requirement:WID-001"], (
-            "requirement:HLR-001", "WID_001_range WID_001_turns", "function:keel_widget_turn",
-            "2", "1", "", "harness:widget/keel_widget_turn_harness", "", "", "good"))  # fmt: skip
+        self.assertEqual(
+            rows["requirement:WID-001"],
+            (
+                "requirement:HLR-001",
+                "WID_001_range WID_001_turns",
+                "function:keel_widget_turn",
+                "2",
+                "1",
+                "",
+                "harness:widget/keel_widget_turn_harness",
+                "",
+                "",
+                "good",
+            ),
+        )
         self.assertEqual(rows["requirement:WID-003"][0], "derived")
 
     def test_mutants_of_this_tree_are_counted(self) -> None:
-        self.reports["mutate/widget.json"] = {"mutants": [
-            {"function": "nudge", "status": "killed"}, {"function": "push", "status": "survived"}]}
+        self.reports["mutate/widget.json"] = {
+            "mutants": [
+                {"function": "nudge", "status": "killed"},
+                {"function": "push", "status": "survived"},
+            ]
+        }
         self.assertEqual(self.part(make).tables[0].rows[0][-1], "1 of 2 killed")
         self.reports["mutate/widget.json"]["made_from"] = {"tree": "other"}
         self.assertEqual(self.part(make).tables[0].rows[0][-1], "")
@@ -52,42 +74,53 @@ class TraceTest(TracedProject):
 
     def test_an_orphan_function(self) -> None:
         self.write(SOURCE, small.SOURCE + "\nvoid keel_widget_stop(void)\n{\n}\n")
-        self.assertEqual(self.problems(make), [
-            "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a requirement's"
-            " id",
-            "function keel_widget_stop: build/prove/report.json has no harness of it",
-        ])  # fmt: skip
+        self.assertEqual(
+            self.problems(make),
+            [
+                "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a requirement's"
+                " id",
+                "function keel_widget_stop: build/prove/report.json has no harness of it",
+            ],
+        )
         self.assertEqual([item.state for item in self.part(make).items].count("bad"), 1)
 
     def test_an_unknown_id(self) -> None:
         self.change("proofs/widget/turn_harness.c", "WID_001", "WID_009")
         self.assertIn(
             "proofs/widget/turn_harness.c: WID_009_turns: there is no requirement WID-009",
-            self.problems(make))  # fmt: skip
+            self.problems(make),
+        )
 
     def test_a_dropped_label(self) -> None:
         self.change("include/keel/widget.h", "WID_001_turns", "turns")
         self.assertIn(
             "WID-001: CLAUSES is not what the headers say (tools/keel trace --update)",
-            self.problems(make))  # fmt: skip
+            self.problems(make),
+        )
 
     def test_a_clause_that_no_goal_bears(self) -> None:
         del self.proofs["wp"]["goal_list"][1]
-        self.assertEqual(self.problems(make), [
-            "WID-001: no goal and no assertion bears the clause WID_001_range"])  # fmt: skip
+        self.assertEqual(
+            self.problems(make),
+            ["WID-001: no goal and no assertion bears the clause WID_001_range"],
+        )
 
     def test_a_clause_that_is_left_to_cbmc_is_listed_with_the_reason(self) -> None:
         del self.proofs["wp"]["goal_list"][1]
         self.proofs["wp"]["not_by_wp"] = {"keel_widget_turn": "floats"}
         part = self.part(make)
         self.assertEqual(part.problems, ())
-        self.assertEqual(part.tables[2].rows, (
-            ("requirement:WID-001", "WID_001_range", "keel_widget_turn: floats"),))  # fmt: skip
+        self.assertEqual(
+            part.tables[2].rows,
+            (("requirement:WID-001", "WID_001_range", "keel_widget_turn: floats"),),
+        )
 
     def test_a_removed_harness(self) -> None:
         self.proofs["cbmc"]["harnesses"] = {}
-        self.assertEqual(self.problems(make), [
-            "function keel_widget_turn: build/prove/report.json has no harness of it"])  # fmt: skip
+        self.assertEqual(
+            self.problems(make),
+            ["function keel_widget_turn: build/prove/report.json has no harness of it"],
+        )
         self.proofs["cbmc"]["without_harness"] = {"keel_widget_turn": "a reason"}
         self.assertEqual(self.problems(make), [])
 
@@ -99,8 +132,10 @@ class TraceTest(TracedProject):
 
     def test_a_name_that_two_functions_have(self) -> None:
         self.write("src/rtos/other.c", small.SOURCE)
-        self.assertIn("nudge: 2 functions have this name, which the package cannot tell apart",
-                      self.problems(make))  # fmt: skip
+        self.assertIn(
+            "nudge: 2 functions have this name, which the package cannot tell apart",
+            self.problems(make),
+        )
 
     def test_a_report_that_is_not_whole(self) -> None:
         self.part(make)

@@ -33,8 +33,11 @@ def number(value: int) -> dict[str, Any]:
 def called(function: str, line: int) -> dict[str, Any]:
     """A call."""
     where = {"file": "proofs/box/h.c", "line": str(line)}
-    return {"stepType": "function-call", "function": {"displayName": function},
-            "sourceLocation": where}  # fmt: skip
+    return {
+        "stepType": "function-call",
+        "function": {"displayName": function},
+        "sourceLocation": where,
+    }
 
 
 def assigned(lhs: str, value: dict[str, Any], kind: str = "variable") -> dict[str, Any]:
@@ -43,25 +46,37 @@ def assigned(lhs: str, value: dict[str, Any], kind: str = "variable") -> dict[st
 
 
 RETURN = {"stepType": "function-return"}
-BOX = {"members": [
-    {"name": "count", "value": number(2)},
-    {"name": "slot", "value": {"elements": [
-        {"index": 0, "value": number(7)}, {"index": 1, "value": number(9)},
-    ]}},
-]}  # fmt: skip
+BOX = {
+    "members": [
+        {"name": "count", "value": number(2)},
+        {
+            "name": "slot",
+            "value": {
+                "elements": [{"index": 0, "value": number(7)}, {"index": 1, "value": number(9)}]
+            },
+        },
+    ]
+}
 POINTER = {"name": "pointer", "data": "&box!0@1"}
 TRACE = [
-    called("__CPROVER_initialize", 1), assigned("limit", number(4)), RETURN,
+    called("__CPROVER_initialize", 1),
+    assigned("limit", number(4)),
+    RETURN,
     called("put_harness", 3),
     assigned("box", BOX),
     called("put", 8),
-    assigned("box", POINTER, "actual-parameter"), assigned("i", number(5)),
-    assigned("box.slot[1ul]", number(3)), assigned("limit", number(6)),
+    assigned("box", POINTER, "actual-parameter"),
+    assigned("i", number(5)),
+    assigned("box.slot[1ul]", number(3)),
+    assigned("limit", number(6)),
     assigned("goto_symex$$return_value$$put", number(1)),
     RETURN,
-    {"stepType": "failure", "reason": "BOX_001: kept",
-     "sourceLocation": {"file": "proofs/box/h.c", "line": "12"}},
-]  # fmt: skip
+    {
+        "stepType": "failure",
+        "reason": "BOX_001: kept",
+        "sourceLocation": {"file": "proofs/box/h.c", "line": "12"},
+    },
+]
 
 
 class Counterexamples(unittest.TestCase):
@@ -202,8 +217,9 @@ class Lines(unittest.TestCase):
         result = Result(goals=goals, problems=[said, "another (include/box.h:9)"])
         locate(result, lambda: ACCESSES)
         self.assertEqual(goals[2]["place"], "src/rtos/box.c:6")
-        self.assertIn("gave up (src/rtos/box.c:6): Z3 4.8.12: ended without an answer",
-                      result.problems[0])  # fmt: skip
+        self.assertIn(
+            "gave up (src/rtos/box.c:6): Z3 4.8.12: ended without an answer", result.problems[0]
+        )
         self.assertEqual(result.problems[1], "another (include/box.h:9)")
 
     def test_where_all_is_proved_nothing_is_printed(self) -> None:

@@ -82,8 +82,9 @@ class Exports(WholeRunCase):
         failing = [ASSERTED, item("keel_box_put.overflow.1", "FAILURE", "overflow", 15)]
         self.play(cbmc=json.loads(cbmc_output(*failing)))
         [result] = self.files()[1]["runs"][0]["results"]
-        self.assertEqual((result["ruleId"], result["message"]["text"]),
-                         ("cbmc/overflow", "overflow: FAILURE"))  # fmt: skip
+        self.assertEqual(
+            (result["ruleId"], result["message"]["text"]), ("cbmc/overflow", "overflow: FAILURE")
+        )
 
     def test_the_summary_has_a_row_for_each_unit_and_what_failed(self) -> None:
         self.unit.goal_list.unlink()

@@ -91,9 +91,15 @@ def toy(*places: Place) -> Board:
     """A board with two memories."""
     text = Place(region="FLASH", sections=[".text"])
     return Board(
-        name="toy", description="a board", linker_script="toy.ld", sources=[], application=[],
-        load_address=0x8000, region=[FLASH, RAM], place=[*places] or [text],
-    )  # fmt: skip
+        name="toy",
+        description="a board",
+        linker_script="toy.ld",
+        sources=[],
+        application=[],
+        load_address=0x8000,
+        region=[FLASH, RAM],
+        place=[*places] or [text],
+    )
 
 
 def image(*sections: Section, symbols: tuple[Symbol, ...] = (), entry: int = 0x8001) -> Contents:
@@ -321,8 +327,7 @@ class Checks(unittest.TestCase):
         place = Place(region="RAM", load="FLASH", sections=[".data"])
         unloaded = Section(".data", 0x2000_0000, 4, None)
         self.assertEqual(
-            wrong(toy(place), image(TEXT, unloaded)),
-            ["load of section .data: lies elsewhere"],
+            wrong(toy(place), image(TEXT, unloaded)), ["load of section .data: lies elsewhere"]
         )
 
     def test_code_that_may_lie_elsewhere(self) -> None:
@@ -335,8 +340,11 @@ class Checks(unittest.TestCase):
         for but, found in (([], ["x_init: lies elsewhere"]), (["*_init"], [])):
             place = Place(region="RAM", code_of=[source], but=but)
             checks = check_image(toy(place), whole, {source: image(TEXT, symbols=(inits, step))})
-            bad = [f"{check.what.rpartition(': ')[2]}: {check.wrong}" for check in checks
-                   if check.wrong and "x_" in check.what]  # fmt: skip
+            bad = [
+                f"{check.what.rpartition(': ')[2]}: {check.wrong}"
+                for check in checks
+                if check.wrong and "x_" in check.what
+            ]
             self.assertEqual(bad, found)
 
     def test_usage_counts_what_is_copied_twice(self) -> None:
@@ -397,8 +405,11 @@ class Images(Folder):
         self.assertIn("src/rtos/scheduler.c", report["sources"])
         self.assertTrue(all(not check["wrong"] for check in report["checks"]))
         placed = {check["what"]: check["region"] for check in report["checks"]}
-        places = [region for what, region in placed.items()
-                  if re.fullmatch("code of src/rtos, .*: keel_scheduler_step", what)]  # fmt: skip
+        places = [
+            region
+            for what, region in placed.items()
+            if re.fullmatch("code of src/rtos, .*: keel_scheduler_step", what)
+        ]
         self.assertEqual(places, ["ITCM"])
         stacks = folder / "obj/src/rtos/scheduler.su"
         self.assertIn("keel_scheduler_step", stacks.read_text())

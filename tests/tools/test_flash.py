@@ -40,8 +40,10 @@ class Tools:
 
     def script(self, name: str, says: str, status: int = 0) -> None:
         path = self.folder / name
-        path.write_text(f"#!/bin/sh\necho \"$0 $@\" >> {self.folder}/ran\n"
-                        f"cat <<'END'\n{says}\nEND\nexit {status}\n")  # fmt: skip
+        path.write_text(
+            f'#!/bin/sh\necho "$0 $@" >> {self.folder}/ran\n'
+            f"cat <<'END'\n{says}\nEND\nexit {status}\n"
+        )
         path.chmod(0o755)
 
     @property
@@ -65,9 +67,11 @@ class FlashTest(unittest.TestCase):
         folder = self.root / FIRMWARE / board
         folder.mkdir(parents=True)
         report: dict[str, object] = {
-            "load_address": address, "regions": {"FLASH": {"size": 0x1F8000}},
-            "sources": {}, "objects": {},
-        }  # fmt: skip
+            "load_address": address,
+            "regions": {"FLASH": {"size": 0x1F8000}},
+            "sources": {},
+            "objects": {},
+        }
         for kind, name, data in (("elf", "keel.elf", b"elf"), ("binary", "keel.bin", b"12345678")):
             (folder / name).write_bytes(data)
             report[kind] = {"file": name, "sha256": hashlib.sha256(data).hexdigest()}
@@ -87,8 +91,9 @@ class FlashTest(unittest.TestCase):
         line = self.flash()
         self.assertRegex(line, "8 bytes at 0x08000000 written with openocd and verified")
         self.assertEqual(self.tools.ensured, ["flash-openocd"])
-        self.assertRegex(self.tools.ran[0], "-f board/st_nucleo_f7.cfg -c program .*keel.elf "
-                         "verify reset exit")  # fmt: skip
+        self.assertRegex(
+            self.tools.ran[0], "-f board/st_nucleo_f7.cfg -c program .*keel.elf verify reset exit"
+        )
         report = json.loads((self.root / flash.REPORT).read_text())
         self.assertEqual(report["verified"], "** Verified OK")
         self.assertEqual(report["binary_sha256"], hashlib.sha256(b"12345678").hexdigest())

@@ -105,8 +105,7 @@ class Frames(Tree):
 
     def problems(self, *entries: str, left: dict[str, str] | None = None) -> list[str]:
         exceptions = Exceptions(
-            not_by_wp=self.left if left is None else left,
-            by_cbmc=dict.fromkeys(entries, "why"),
+            not_by_wp=self.left if left is None else left, by_cbmc=dict.fromkeys(entries, "why")
         )
         return frames.problems(self.unit, exceptions, [self.unit])
 
@@ -120,8 +119,9 @@ class Frames(Tree):
 
     def test_other_functions_stay_whole(self) -> None:
         target = targets.Target(self.unit, self.unit.source, "keel_box_put")
-        self.assertEqual(frames.restricted(target, Exceptions()).selection,
-                         ["-wp-fct", "keel_box_put"])  # fmt: skip
+        self.assertEqual(
+            frames.restricted(target, Exceptions()).selection, ["-wp-fct", "keel_box_put"]
+        )
 
     def test_a_precondition_that_a_stand_in_asserts_is_fine(self) -> None:
         self.assertEqual(self.problems("keel_box_fill put_small keel_box_fill_harness"), [])
@@ -275,5 +275,6 @@ class Refusals(Tree):
 
     def test_an_exception_of_nothing_is_a_failure(self) -> None:
         self.state("- BOX_001 keel_box_fill, any: it counts")
-        self.assertIn("STA-001: there is no keel_box_fill that returns a status",
-                      refusals.problems(self.root))  # fmt: skip
+        self.assertIn(
+            "STA-001: there is no keel_box_fill that returns a status", refusals.problems(self.root)
+        )

@@ -114,9 +114,7 @@ class GappaTest(unittest.TestCase):
         self.assertIn("each rounding of mean is at most 2^-24", "\n".join(problems))
 
     def test_formulas_by_hand(self) -> None:
-        self.assertEqual(
-            gappa.formulas(FUNCTION), ([FIRST, SECOND], {"p0", "p1", "s1", "v1", "q"})
-        )
+        self.assertEqual(gappa.formulas(FUNCTION), ([FIRST, SECOND], {"p0", "p1", "s1", "v1", "q"}))
 
     def test_a_bound_in_another_form_is_refused(self) -> None:
         with self.assertRaisesRegex(ProjectError, "not of the form"):

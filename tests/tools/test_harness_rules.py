@@ -34,10 +34,10 @@ FILES = {
         '#include "../../specs/model/box.h"\n#include "../common/box_proof.h"\n'
         '#include "keel/rtos/box.h"\n\n'
         "void keel_box_put_harness(void)\n{\n    int box = nondet_int();\n    int model = box;\n\n"
-        "    __CPROVER_assert(keel_box_put(&box, 1) == model_box_put(&model, 1), \"BOX_001: x\");\n"
+        '    __CPROVER_assert(keel_box_put(&box, 1) == model_box_put(&model, 1), "BOX_001: x");\n'
         "}\n"
     ),
-}  # fmt: skip
+}
 PROOF = "proofs/common/box_proof.h"
 HARNESS = "proofs/box/keel_box_put_harness.c"
 MODEL = "specs/model/box.c"
@@ -72,8 +72,11 @@ class RulesTest(unittest.TestCase):
     def test_what_gives_anything_has_no_body(self) -> None:
         for file in (PROOF, HARNESS, MODEL):
             with self.subTest(file):
-                self.assert_found(file, "int nondet_other(void)\n{\n    return 1;\n}",
-                                  "nondet_other has a body: it does not give anything")  # fmt: skip
+                self.assert_found(
+                    file,
+                    "int nondet_other(void)\n{\n    return 1;\n}",
+                    "nondet_other has a body: it does not give anything",
+                )
 
     def test_a_macro_stands_for_no_function(self) -> None:
         for line, why in (
@@ -86,7 +89,7 @@ class RulesTest(unittest.TestCase):
             ("#define UINT32_MAX 16u", "the macro UINT32_MAX has a name that the code uses"),
             ("#define NULL 1", "the macro NULL has a name that the code uses"),
             ("#undef MOST", "#undef may make this another text than it seems"),
-            ("#pragma CPROVER check disable \"bounds\"", "#pragma may make this another text"),
+            ('#pragma CPROVER check disable "bounds"', "#pragma may make this another text"),
         ):
             for file in (PROOF, HARNESS, MODEL):
                 with self.subTest(line, file=file):
@@ -116,22 +119,35 @@ class RulesTest(unittest.TestCase):
         body = "(int *box, int value)\n{\n    return 0;\n}"
         for file in (PROOF, HARNESS, MODEL):
             with self.subTest(file):
-                self.assert_found(file, f"int keel_box_put{body}",
-                                  "keel_box_put is a function of the code")  # fmt: skip
+                self.assert_found(
+                    file, f"int keel_box_put{body}", "keel_box_put is a function of the code"
+                )
         self.assert_found(PROOF, f"static int keel_box_other{body}", "bears a name of the code")
         self.assert_found(PROOF, f"static int __CPROVER_assume{body}", "is CBMC's own")
 
     def test_what_is_linked_is_not_defined_beside_it(self) -> None:
         body = "(int *box, int value)\n{\n    return 0;\n}"
-        self.assert_found(HARNESS, f"int model_box_put{body}",
-                          "model_box_put is defined by proofs, and by specs/model/box.c")
+        self.assert_found(
+            HARNESS,
+            f"int model_box_put{body}",
+            "model_box_put is defined by proofs, and by specs/model/box.c",
+        )
 
     def test_what_is_called_has_a_body(self) -> None:
-        for call in ("abort()", "exit(0)", "__builtin_unreachable()", "any_other()",
-                     "__CPROVER_cover(0)", "longjmp(0, 1)"):  # fmt: skip
+        for call in (
+            "abort()",
+            "exit(0)",
+            "__builtin_unreachable()",
+            "any_other()",
+            "__CPROVER_cover(0)",
+            "longjmp(0, 1)",
+        ):
             with self.subTest(call):
-                self.assert_found(PROOF, f"static void end(void)\n{{\n    {call};\n}}",
-                                  f"calls {call.partition('(')[0]}, which has no body")  # fmt: skip
+                self.assert_found(
+                    PROOF,
+                    f"static void end(void)\n{{\n    {call};\n}}",
+                    f"calls {call.partition('(')[0]}, which has no body",
+                )
 
 
 class Conditions(unittest.TestCase):

@@ -10,8 +10,16 @@ from consumer import ROOT, ConsumerTest
 from keel.install import TARGET_FLAGS
 
 HEADERS = sorted(path.relative_to(ROOT / "include") for path in (ROOT / "include").rglob("*.h"))
-WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow",
-            "-Wundef", "-Werror")  # fmt: skip
+WARNINGS = (
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Wconversion",
+    "-Wsign-conversion",
+    "-Wshadow",
+    "-Wundef",
+    "-Werror",
+)
 HOST = {"c": ("gcc",), "c++": ("g++",)}
 TARGET = {"c": ("arm-none-eabi-gcc", *TARGET_FLAGS), "c++": ("arm-none-eabi-g++", *TARGET_FLAGS)}
 STANDARDS = {"c99": "c", "c17": "c", "c++11": "c++", "c++20": "c++"}

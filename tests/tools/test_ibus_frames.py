@@ -53,16 +53,23 @@ def decoded(frame: bytes, extended: bool) -> Channels:
     if not extended:
         return (*words, 0, 0, 0, 0)
     digits = [f"{word:04x}" for word in words]
-    extras = (int("".join(digit[0] for digit in digits[at : at + 3])[::-1], 16)
-              for at in range(0, 12, 3))  # fmt: skip
+    extras = (
+        int("".join(digit[0] for digit in digits[at : at + 3])[::-1], 16) for at in range(0, 12, 3)
+    )
     return (*(int(digit[1:], 16) for digit in digits), *extras)
 
 
 def is_right(frame: bytes, extended: bool, judged: int = ALL) -> bool:
     channels = decoded(frame, extended)[: 18 if extended else 14]
-    return (frame[:2] == b"\x20\x40" and summed(frame[:30]) == frame
-            and all(LOWEST <= value <= HIGHEST for index, value in enumerate(channels)
-                    if judged >> index & 1))  # fmt: skip
+    return (
+        frame[:2] == b"\x20\x40"
+        and summed(frame[:30]) == frame
+        and all(
+            LOWEST <= value <= HIGHEST
+            for index, value in enumerate(channels)
+            if judged >> index & 1
+        )
+    )
 
 
 @unittest.skipUnless(shutil.which("gcc"), "needs gcc")
@@ -78,8 +85,20 @@ class Frames(unittest.TestCase):
         shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
         shim.write_text(SHIM)
         units = [ROOT / f"src/middleware/{unit}.c" for unit in ("ibus", "framing")]
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
-                   shim, *units, "-o", built])  # fmt: skip
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                f"-I{ROOT / 'include'}",
+                shim,
+                *units,
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
 
     def setUp(self) -> None:

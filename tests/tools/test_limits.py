@@ -30,6 +30,7 @@ while time.process_time() < float(sys.argv[1]):
 print('done')
 """
 
+
 def pigeons(holes: int) -> str:
     """That one pigeon more than there are holes finds no place: easy to say, and long to prove."""
     birds = range(holes + 1)
@@ -86,12 +87,17 @@ class Provers(unittest.TestCase):
 
     def test_a_time_by_the_clock_becomes_one_of_the_processor(self) -> None:
         seconds = str(10 * CLOCK_PER_PROCESSOR)
-        self.assertEqual(self.started("/bin/echo", "-timelimit", seconds, "f.why").stdout,
-                         "-timelimit 10 f.why\n")  # fmt: skip
-        self.assertEqual(self.started("/bin/echo", "--stats", f"--tlimit={seconds}000").stdout,
-                         "--stats --cpu-time --tlimit=10000\n")  # fmt: skip
-        self.assertEqual(self.started("/bin/echo", "--rlimit=6000", "a b").stdout,
-                         "--rlimit=6000 a b\n")  # fmt: skip
+        self.assertEqual(
+            self.started("/bin/echo", "-timelimit", seconds, "f.why").stdout,
+            "-timelimit 10 f.why\n",
+        )
+        self.assertEqual(
+            self.started("/bin/echo", "--stats", f"--tlimit={seconds}000").stdout,
+            "--stats --cpu-time --tlimit=10000\n",
+        )
+        self.assertEqual(
+            self.started("/bin/echo", "--rlimit=6000", "a b").stdout, "--rlimit=6000 a b\n"
+        )
 
     def test_z3_is_ended_by_the_system(self) -> None:
         program = self.folder / "endless"

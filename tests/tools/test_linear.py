@@ -30,19 +30,48 @@ class Terms(unittest.TestCase):
     """What counts as a product, quotient or remainder of variables."""
 
     def test_products(self) -> None:
-        for text in ("(x * y)", "((x * 3) * y)", "(y * 3 * x)", "(3 * x * y)", "((- n) * x)",
-                     "(x1 * y)", "(x * y2)", "(f(3) * x)", "(x * 3y)"):  # fmt: skip
+        for text in (
+            "(x * y)",
+            "((x * 3) * y)",
+            "(y * 3 * x)",
+            "(3 * x * y)",
+            "((- n) * x)",
+            "(x1 * y)",
+            "(x * y2)",
+            "(f(3) * x)",
+            "(x * 3y)",
+        ):
             self.assertTrue(is_nonlinear(text), text)
 
     def test_quotients_and_remainders(self) -> None:
-        for text in ("(x / y)", "(x % 256)", "(x / 256)", "div(x, 257)", "mod(x, 256)", "(-x/2)",
-                     "(1 / 2)", "(1.0 / 0.0)", "(x / 2.0)"):  # fmt: skip
+        for text in (
+            "(x / y)",
+            "(x % 256)",
+            "(x / 256)",
+            "div(x, 257)",
+            "mod(x, 256)",
+            "(-x/2)",
+            "(1 / 2)",
+            "(1.0 / 0.0)",
+            "(x / 2.0)",
+        ):
             self.assertTrue(is_nonlinear(text), text)
 
     def test_linear(self) -> None:
-        for text in ("(256 * x)", "(x * 256)", "((256 * x) + (3 * y))", "(0.5 * r)", "(x + y)",
-                     "(division <= modulus)", "(f(x)[y] - 3)", "(256 * div1(x))", "((- 3) * x)",
-                     "((1.0 / 1024.0) <= r)", "((- 1.0) * r)", "((1.0 / 3.0) * r)"):  # fmt: skip
+        for text in (
+            "(256 * x)",
+            "(x * 256)",
+            "((256 * x) + (3 * y))",
+            "(0.5 * r)",
+            "(x + y)",
+            "(division <= modulus)",
+            "(f(x)[y] - 3)",
+            "(256 * div1(x))",
+            "((- 3) * x)",
+            "((1.0 / 1024.0) <= r)",
+            "((- 1.0) * r)",
+            "((1.0 / 3.0) * r)",
+        ):
             self.assertFalse(is_nonlinear(text), text)
 
 
@@ -62,16 +91,23 @@ class Shown(unittest.TestCase):
         self.assertIsNone(linear_part("goal g :\n  (forall x:int.\n  ((x *\n  x) >= 0))\n"))
 
     def test_a_hypothesis_that_divides_is_left_out(self) -> None:
-        text = ("goal wp_goal :\n  (forall x:int. forall t:(int,int) farray.\n  ((3 <= x) ->\n"
-                "  ((div(x, 2) = 1) -> (((t[x]) = 0) -> (forall k:int. (((x * k) <= 9 -> (k = 1))"
-                " -> ((f(k) <-> (k = 2)) -> (x = k))))))))\n")  # fmt: skip
-        self.assertEqual(linear_part(text),
+        text = (
+            "goal wp_goal :\n  (forall x:int. forall t:(int,int) farray.\n  ((3 <= x) ->\n"
+            "  ((div(x, 2) = 1) -> (((t[x]) = 0) -> (forall k:int. (((x * k) <= 9 -> (k = 1))"
+            " -> ((f(k) <-> (k = 2)) -> (x = k))))))))\n"
+        )
+        self.assertEqual(
+            linear_part(text),
             "goal wp_goal :\n  (forall x:int. forall t:(int,int) farray.\n  ((3 <= x) ->"
-            "((((t[x]) = 0) ->(forall k:int. (((f(k) <-> (k = 2)) ->(x = k))))))))\n")  # fmt: skip
+            "((((t[x]) = 0) ->(forall k:int. (((f(k) <-> (k = 2)) ->(x = k))))))))\n",
+        )
 
     def test_what_a_goal_is_about_stays(self) -> None:
-        for conclusion in ("(div(x, 2) = y)", "((x = 1) <-> ((x * y) = 1))",
-                           "(((x * y) = 1) and (x -> y))"):  # fmt: skip
+        for conclusion in (
+            "(div(x, 2) = y)",
+            "((x = 1) <-> ((x * y) = 1))",
+            "(((x * y) = 1) and (x -> y))",
+        ):
             goal = f"goal g : (forall x:int. forall y:int. ((x = 1) -> {conclusion}))\n"
             self.assertIsNone(linear_part(goal), conclusion)
 
@@ -83,15 +119,22 @@ class Shown(unittest.TestCase):
         self.assertEqual(linear_part(text), f"logic half : int, addr -> int\n\n{GOAL}")
 
     def test_of_a_predicate_what_it_implies_is_left(self) -> None:
-        text = ("predicate ok(x: int,\n  m: (int,int) farray) = (((0 <= x) and ((x * x) < 9)) and\n"
-                "  ((forall k:int. ((k < x) and (0 <= k))) and ((x = 1) or ((x / 2) = 1))))\n\n")
+        text = (
+            "predicate ok(x: int,\n  m: (int,int) farray) = (((0 <= x) and ((x * x) < 9)) and\n"
+            "  ((forall k:int. ((k < x) and (0 <= k))) and ((x = 1) or ((x / 2) = 1))))\n\n"
+        )
         bound = "forall x: int. forall m: (int,int) farray. (ok(x, m) -> "
-        self.assertEqual(linear_part(text + GOAL),
+        self.assertEqual(
+            linear_part(text + GOAL),
             "logic ok : int, (int,int) farray -> prop\n\n"
             f"axiom ok_0 : ({bound}(0 <= x)))\n\n"
-            f"axiom ok_2 : ({bound}(forall k:int. ((k < x) and (0 <= k)))))\n\n{GOAL}")  # fmt: skip
-        for body in ("(((x * x) < 9) or ((x = 1) and (x = 2)))", "((x < 1) -> ((x * x) = 0))",
-                     "(exists k:int. (x = 1) and (k * k) = x)"):  # fmt: skip
+            f"axiom ok_2 : ({bound}(forall k:int. ((k < x) and (0 <= k)))))\n\n{GOAL}",
+        )
+        for body in (
+            "(((x * x) < 9) or ((x = 1) and (x = 2)))",
+            "((x < 1) -> ((x * x) = 0))",
+            "(exists k:int. (x = 1) and (k * k) = x)",
+        ):
             shown = linear_part(f"predicate ok(x: int) = {body}\n\n{GOAL}")
             self.assertEqual(shown, f"logic ok : int -> prop\n\n{GOAL}", body)
 

@@ -42,26 +42,47 @@ class ModelTest(unittest.TestCase):
 
     HEADER = text("specs/model/box.h", "keel_status_t model_box_put(keel_box_t *box, uint32_t n);")
     ABOVE = (
-        text("include/keel/rtos/box.h", ""), text("include/keel/flight/plane.h", ""),
+        text("include/keel/rtos/box.h", ""),
+        text("include/keel/flight/plane.h", ""),
         text("specs/model/plane.h", ""),
-    )  # fmt: skip
+    )
 
     def findings(self, *body: str, before: tuple[str, ...] = ()) -> list[str]:
-        source = text("specs/model/box.c", *before,
-                      "keel_status_t model_box_put(keel_box_t *box, uint32_t n)", "{", *body,
-                      "}")  # fmt: skip
+        source = text(
+            "specs/model/box.c",
+            *before,
+            "keel_status_t model_box_put(keel_box_t *box, uint32_t n)",
+            "{",
+            *body,
+            "}",
+        )
         texts = [self.HEADER, *self.ABOVE, source]
         return [one.reason for one in models.check_models(texts, house.LAYERS)]
 
     def test_a_model_that_keeps_them(self) -> None:
-        self.assertEqual(self.findings(
-            "if (n > 3u) {", "return KEEL_ERR_FULL;", "}",
-            "for (uint32_t i = 0u; i < n; i++) {", "box->side[i] = other(i);", "}",
-            "for (uint32_t i = 0u; i < 64u; i += 8u) {", "if (box->side[i] > n) {",
-            "return KEEL_OK;", "}", "}", "switch (n) {", "case 1u:", "break;", "}",
-            "box->count = n;", "return KEEL_OK;",
-            before=("static const uint8_t table[2] = {1u, 2u};", '#include "box.h"'),
-        ), [])  # fmt: skip
+        self.assertEqual(
+            self.findings(
+                "if (n > 3u) {",
+                "return KEEL_ERR_FULL;",
+                "}",
+                "for (uint32_t i = 0u; i < n; i++) {",
+                "box->side[i] = other(i);",
+                "}",
+                "for (uint32_t i = 0u; i < 64u; i += 8u) {",
+                "if (box->side[i] > n) {",
+                "return KEEL_OK;",
+                "}",
+                "}",
+                "switch (n) {",
+                "case 1u:",
+                "break;",
+                "}",
+                "box->count = n;",
+                "return KEEL_OK;",
+                before=("static const uint8_t table[2] = {1u, 2u};", '#include "box.h"'),
+            ),
+            [],
+        )
 
     def test_what_breaks_one(self) -> None:
         for body, why in (
@@ -74,9 +95,11 @@ class ModelTest(unittest.TestCase):
             ("for (uint32_t i = 0u; i < n; i++) {\nbreak;\n}", "a loop is left early"),
             ("for (uint32_t i = 0u; i < n; i++) {\nreturn;\n}", "a loop is left early"),
             ("static uint32_t calls;", "static data: static uint32_t calls;"),
-            ("box->count = n;\nif (n > 3u) {\nreturn KEEL_ERR_FULL;\n}",
-             "model_box_put writes before it refuses"),
-        ):  # fmt: skip
+            (
+                "box->count = n;\nif (n > 3u) {\nreturn KEEL_ERR_FULL;\n}",
+                "model_box_put writes before it refuses",
+            ),
+        ):
             with self.subTest(body):
                 found = self.findings(*body.split("\n"))
                 self.assertTrue(any(why in one for one in found), found)
@@ -111,9 +134,7 @@ class HouseTest(unittest.TestCase):
         self.assertEqual(self.lines_of(house.check_words, item), [2, 4])
 
     def test_a_path_of_one_machine_is_found(self) -> None:
-        item = text(
-            "a.md", "see /ro" + "ot/x", "cd /wo" + "rk/x", "/ho" + "me/ann/y", "src/work/z"
-        )
+        item = text("a.md", "see /ro" + "ot/x", "cd /wo" + "rk/x", "/ho" + "me/ann/y", "src/work/z")
         self.assertEqual(self.lines_of(house.check_words, item), [1, 2, 3])
 
     def test_the_name_of_a_registry_is_found(self) -> None:
@@ -182,39 +203,72 @@ class ProseTest(unittest.TestCase):
         return [finding.line for finding in prose.check_prose([text(path, *lines)])]
 
     def test_a_sentence_that_begins_with_what_or_who_is_found(self) -> None:
-        for line in ("What is left CBMC checks.", "All is well. Who knows it can tell.",
-                     "- **What holds.** All.", "1. What is left:", "| a | What is left |",
-                     "(What is more.)", "Why so? What is\nleft, is checked."):  # fmt: skip
+        for line in (
+            "What is left CBMC checks.",
+            "All is well. Who knows it can tell.",
+            "- **What holds.** All.",
+            "1. What is left:",
+            "| a | What is left |",
+            "(What is more.)",
+            "Why so? What is\nleft, is checked.",
+        ):
             with self.subTest(line):
                 self.assertEqual(self.lines_of("docs/a.md", "", *line.split("\n")), [2])
 
     def test_a_question_a_title_and_code_are_allowed(self) -> None:
-        self.assertEqual(self.lines_of(
-            "docs/a.md", "# What is proved", "What happens then? It ends.", "Look what it does.",
-            "[What is proved](proved.md) has all.", "Whatever comes is taken.", "```", "What.",
-            "```", "See `What.`", "It says what it is.",
-        ), [])  # fmt: skip
+        self.assertEqual(
+            self.lines_of(
+                "docs/a.md",
+                "# What is proved",
+                "What happens then? It ends.",
+                "Look what it does.",
+                "[What is proved](proved.md) has all.",
+                "Whatever comes is taken.",
+                "```",
+                "What.",
+                "```",
+                "See `What.`",
+                "It says what it is.",
+            ),
+            [],
+        )
 
     def test_comments_of_the_kernel_are_prose_and_contracts_are_not(self) -> None:
         path = "include/keel/rtos/a.h"
-        self.assertEqual(self.lines_of(
-            path, "/*@ // What a step keeps.", "  @*/", "int a; /**< What it is. */", "/**",
-            " * @brief What is here.", " *", " * Its size |q|", " * is |What.| long.", " */",
-            "// What else.", 'const char *b = "/* What. */";', "/* Whether it is. What",
-            " * is next? */",
-        ), [3, 5, 10])  # fmt: skip
+        self.assertEqual(
+            self.lines_of(
+                path,
+                "/*@ // What a step keeps.",
+                "  @*/",
+                "int a; /**< What it is. */",
+                "/**",
+                " * @brief What is here.",
+                " *",
+                " * Its size |q|",
+                " * is |What.| long.",
+                " */",
+                "// What else.",
+                'const char *b = "/* What. */";',
+                "/* Whether it is. What",
+                " * is next? */",
+            ),
+            [3, 5, 10],
+        )
         self.assertEqual(self.lines_of("tests/unit/a.c", "/* What it is. */"), [])
 
     def test_a_finding_names_file_line_and_sentence(self) -> None:
         found = list(prose.check_prose([text("a.md", "Good.", "", "So. What is", "left, stays.")]))
-        self.assertEqual([str(one) for one in found],
-                         ["a.md:3: a sentence begins with What or Who: What is left, stays."])
+        self.assertEqual(
+            [str(one) for one in found],
+            ["a.md:3: a sentence begins with What or Who: What is left, stays."],
+        )
 
     def test_a_word_may_be_rare_and_not_frequent(self) -> None:
         rest = " ".join(["word"] * 9999)
         self.assertEqual(self.lines_of("a.md", rest, "It stands alone."), [])
-        self.assertEqual(self.lines_of("a.md", rest + ".", "It stands alone.", "Alone, it falls."),
-                         [2, 3])  # fmt: skip
+        self.assertEqual(
+            self.lines_of("a.md", rest + ".", "It stands alone.", "Alone, it falls."), [2, 3]
+        )
         self.assertEqual(self.lines_of("src/a.c", "/* It stands alone. */"), [])
         self.assertEqual(self.lines_of("proofs/determined.md", "It stands alone. What?"), [])
 
@@ -275,9 +329,14 @@ class DeclarationTest(unittest.TestCase):
         return [finding.line for finding in house.check_declarations(text(path, *lines))]
 
     def test_a_declaration_in_a_structure_or_on_the_stack_is_found(self) -> None:
-        lines = ("typedef struct demo_task {", "    keel_task_config_t config;", "} demo_task_t;",
-                 "    const keel_task_config_t config = {0};", "    keel_task_config_t row[2];",
-                 "keel_task_config_t shared;")  # fmt: skip
+        lines = (
+            "typedef struct demo_task {",
+            "    keel_task_config_t config;",
+            "} demo_task_t;",
+            "    const keel_task_config_t config = {0};",
+            "    keel_task_config_t row[2];",
+            "keel_task_config_t shared;",
+        )
         self.assertEqual(self.lines_of("examples/urpilot/demo.c", *lines), [2, 4, 5, 6])
         self.assertEqual(self.lines_of("tests/unit/actors.h", *lines), [])
 
@@ -487,8 +546,9 @@ class ToolTest(unittest.TestCase):
         results = json.loads((self.root / record.RESULTS).read_text())["runs"][0]["results"]
         places = [result["locations"][0]["physicalLocation"] for result in results]
         self.assertEqual([place["region"]["startLine"] for place in places], [5, 6, 6])
-        self.assertEqual({place["artifactLocation"]["uri"] for place in places},
-                         {"src/rtos/clock.c"})  # fmt: skip
+        self.assertEqual(
+            {place["artifactLocation"]["uri"] for place in places}, {"src/rtos/clock.c"}
+        )
 
     def test_the_report_tells_what_deviations_allow_and_what_nothing_looks_for(self) -> None:
         self.write("src/rtos/clock.c", BARE)
@@ -567,9 +627,13 @@ class ToolTest(unittest.TestCase):
         status, lines = self.lint()
         self.assertEqual(status, 2)
         place = f"{self.root / misra.DEVIATIONS}"
-        self.assertEqual(lines, [
-            f"lint: {place}:2: deviation MD-001: reason: is missing",
-            f"{place}:7: deviation MD-001: reson: unknown key; did you mean reason?"])  # fmt: skip
+        self.assertEqual(
+            lines,
+            [
+                f"lint: {place}:2: deviation MD-001: reason: is missing",
+                f"{place}:7: deviation MD-001: reson: unknown key; did you mean reason?",
+            ],
+        )
 
     WORKFLOW = ".github/workflows/ci.yml"
     # By hand; the commit is no action's.
@@ -611,8 +675,10 @@ jobs:
     def test_a_workflow_of_another_form_is_told_with_its_line(self) -> None:
         [line] = self.workflow("- run: make", "- rn: make")
         self.assertTrue(line.startswith(f"{self.WORKFLOW}:12: $.jobs.check.steps[1]: "), line)
-        [line] = self.workflow("runs-on: ubuntu-24.04\n    steps:\n      - *c",
-                               "runs-on: x\n    timeout: 3\n    steps:\n      - *c")  # fmt: skip
+        [line] = self.workflow(
+            "runs-on: ubuntu-24.04\n    steps:\n      - *c",
+            "runs-on: x\n    timeout: 3\n    steps:\n      - *c",
+        )
         self.assertTrue(line.startswith(f"{self.WORKFLOW}:13: $.jobs.again: "), line)
         self.assertIn("'timeout' was unexpected", line)
 
@@ -634,8 +700,10 @@ jobs:
             ("make lint", "echo ${{ github.head_ref }}", 12, "template-injection"),
         ):
             found = self.workflow(old, new)
-            self.assertTrue(any(one.startswith(f"{self.WORKFLOW}:{line}: {why}: ")
-                                for one in found), (why, found))  # fmt: skip
+            self.assertTrue(
+                any(one.startswith(f"{self.WORKFLOW}:{line}: {why}: ") for one in found),
+                (why, found),
+            )
             rules = {one["rule"] for one in self.report()["findings"]}
             self.assertEqual(rules, {"workflows"})
 

@@ -168,9 +168,12 @@ class Order(unittest.TestCase):
 
     def test_each_rule_is_needed(self) -> None:
         for rule, complaint in (
-            ("writer_acquires", "is written while"), ("writer_releases", "is read while"),
-            ("reader_acquires", "is read while"), ("reader_releases", "is written while"),
-            ("head_last", "byte 0 is "), ("tail_last", "byte"),
-        ):  # fmt: skip
+            ("writer_acquires", "is written while"),
+            ("writer_releases", "is read while"),
+            ("reader_acquires", "is read while"),
+            ("reader_releases", "is written while"),
+            ("head_last", "byte 0 is "),
+            ("tail_last", "byte"),
+        ):
             with self.subTest(rule), self.assertRaisesRegex(Wrong, complaint):
                 explore(Rules(**{rule: False}))

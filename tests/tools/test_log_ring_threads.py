@@ -89,9 +89,21 @@ class Threads(unittest.TestCase):
     def build(self, folder: Path, *flags: str) -> Path:
         source, built = folder / "threads.c", folder / "threads"
         source.write_text(PROGRAM, encoding="utf-8")
-        made = run(["gcc", "-std=c99", "-O2", "-pthread", "-DKEEL_LOG_RING_BYTES=256u", *flags,
-                    f"-I{ROOT / 'include'}", source, ROOT / "src/middleware/log_ring.c",
-                    "-o", built])  # fmt: skip
+        made = run(
+            [
+                "gcc",
+                "-std=c99",
+                "-O2",
+                "-pthread",
+                "-DKEEL_LOG_RING_BYTES=256u",
+                *flags,
+                f"-I{ROOT / 'include'}",
+                source,
+                ROOT / "src/middleware/log_ring.c",
+                "-o",
+                built,
+            ]
+        )
         if not made.good and "tsan" in made.output:
             self.skipTest("gcc has no thread sanitizer")
         self.assertTrue(made.good, made.output)

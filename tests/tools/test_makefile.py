@@ -17,8 +17,11 @@ def make(*words: str) -> tuple[int, list[str]]:
     """The exit status of make, and what the tools and it say, but for its own last line."""
     command = ["make", "--no-print-directory", *words]
     # As from a shell, also when these tests are run by make themselves.
-    outside = {name: text for name, text in os.environ.items() if "MAKE" not in name
-               and name not in ("ARGS", "UNIT", "BOARD", "TASKSET", "MFLAGS")}  # fmt: skip
+    outside = {
+        name: text
+        for name, text in os.environ.items()
+        if "MAKE" not in name and name not in ("ARGS", "UNIT", "BOARD", "TASKSET", "MFLAGS")
+    }
     done = subprocess.run(
         command, cwd=ROOT, env=outside, capture_output=True, text=True, check=False
     )
@@ -35,9 +38,12 @@ class Help(unittest.TestCase):
         text = (ROOT / "Makefile").read_text(encoding="utf-8")
         targets = sorted(re.findall(r"^([a-z-]+):[^#\n]*## ", text, re.MULTILINE))
         self.assertEqual(sorted(re.findall(r"^  make ([a-z-]+)", "\n".join(lines), re.M)), targets)
-        self.assertLess(lines.index("Boards"), next(
-            number for number, line in enumerate(lines) if line.startswith("  make firmware ")
-        ))  # fmt: skip
+        self.assertLess(
+            lines.index("Boards"),
+            next(
+                number for number, line in enumerate(lines) if line.startswith("  make firmware ")
+            ),
+        )
         self.assertLess(max(map(len, lines)), 120)
 
 
@@ -75,11 +81,18 @@ class Refusals(unittest.TestCase):
         )
 
     def test_an_option(self) -> None:
-        for target, option in (("lint", "--fxi"), ("bench", "--chek"), ("trace", "--updaet"),
-                               ("test-target", "--filtre=x"), ("coverage", "--all")):  # fmt: skip
+        for target, option in (
+            ("lint", "--fxi"),
+            ("bench", "--chek"),
+            ("trace", "--updaet"),
+            ("test-target", "--filtre=x"),
+            ("coverage", "--all"),
+        ):
             with self.subTest(target):
-                self.assertIn(f"{target}: unrecognized arguments: {option}",
-                              self.refused(target, f"ARGS={option}"))  # fmt: skip
+                self.assertIn(
+                    f"{target}: unrecognized arguments: {option}",
+                    self.refused(target, f"ARGS={option}"),
+                )
 
     def test_a_task_set_that_is_missing_or_broken(self) -> None:
         status, lines = make("analyze", "TASKSET=specs/tasksets/urpilo.toml")

@@ -108,8 +108,20 @@ class Frames(unittest.TestCase):
         shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
         shim.write_text(SHIM)
         sources = [ROOT / "src/middleware/mavlink.c", ROOT / "src/middleware/crc.c"]
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
-                   shim, *sources, "-o", built])  # fmt: skip
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                f"-I{ROOT / 'include'}",
+                shim,
+                *sources,
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
         cls.library.payload.restype = ctypes.POINTER(ctypes.c_ubyte)
         cls.library.seal.restype = ctypes.POINTER(ctypes.c_ubyte)
@@ -157,8 +169,9 @@ class Frames(unittest.TestCase):
         size = self.common.mavlink_map[number].unpacker.size
         kept = self.random.randrange(size + 1)
         odds = self.random.random()
-        some = [self.random.randrange(256) if self.random.random() < odds else 0
-                for _ in range(kept)]  # fmt: skip
+        some = [
+            self.random.randrange(256) if self.random.random() < odds else 0 for _ in range(kept)
+        ]
         return bytes(some).ljust(size, b"\0")
 
     def sender(self, key: bytes = b"") -> Any:
@@ -290,8 +303,12 @@ class Frames(unittest.TestCase):
         payload = bytes(5) + inner[:120] + b"\1"
         if number in self.common.mavlink_map:
             return self.packed(number, payload.ljust(133, b"\0"), self.sender())
-        return (bytes([FIRST, len(payload), 0, 0, 0, 1, 1]) + number.to_bytes(3, "little")
-                + payload + b"\0\0")  # fmt: skip
+        return (
+            bytes([FIRST, len(payload), 0, 0, 0, 1, 1])
+            + number.to_bytes(3, "little")
+            + payload
+            + b"\0\0"
+        )
 
     def test_each_frame_in_a_stream_is_found(self) -> None:
         frames = late = 0

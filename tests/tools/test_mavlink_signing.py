@@ -122,14 +122,30 @@ class Signing(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder, carried = Path(folder.name), Path(tools.command("hacl")[0]) / "c"
-        cls.hacl = [carried / "src/Hacl_Hash_SHA2.c", f"-I{carried / 'include'}",
-                    f"-I{carried / 'karamel/include'}",
-                    f"-I{carried / 'karamel/krmllib/dist/minimal'}"]  # fmt: skip
+        cls.hacl = [
+            carried / "src/Hacl_Hash_SHA2.c",
+            f"-I{carried / 'include'}",
+            f"-I{carried / 'karamel/include'}",
+            f"-I{carried / 'karamel/krmllib/dist/minimal'}",
+        ]
         shim, built = cls.folder / "shim.c", cls.folder / "shim.so"
         shim.write_text(SHIM)
-        output_of(["gcc", "-std=gnu11", "-O1", "-shared", "-fPIC", "-w",
-                   f"-I{ROOT / 'include'}", shim,
-                   *[ROOT / name for name in SOURCES], *cls.hacl, "-o", built])  # fmt: skip
+        output_of(
+            [
+                "gcc",
+                "-std=gnu11",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                "-w",
+                f"-I{ROOT / 'include'}",
+                shim,
+                *[ROOT / name for name in SOURCES],
+                *cls.hacl,
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
         cls.library.timestamp.restype = ctypes.c_ulonglong
 
@@ -167,9 +183,8 @@ class Signing(unittest.TestCase):
         """FIPS 180-4's examples."""
         expected = {
             b"abc": "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad",
-            b"abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq":
-                "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1",
-        }  # fmt: skip
+            b"abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq": "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1",
+        }
         for text, digest in expected.items():
             out = (ctypes.c_ubyte * 32)()
             self.library.hashed(text, len(text), out)
@@ -247,12 +262,30 @@ class Signing(unittest.TestCase):
     def test_the_hash_builds_for_the_target_without_a_heap(self) -> None:
         program, image = self.folder / "target.c", self.folder / "target.elf"
         program.write_text(TARGET)
-        flags = ["-std=c11", "-Os", "-ffreestanding", "-ffunction-sections", "-fdata-sections",
-                 "-w"]  # fmt: skip
+        flags = [
+            "-std=c11",
+            "-Os",
+            "-ffreestanding",
+            "-ffunction-sections",
+            "-fdata-sections",
+            "-w",
+        ]
         chip = ["-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"]
-        output_of(["arm-none-eabi-gcc", *chip, *flags, f"-I{ROOT / 'include'}", program,
-                   *[ROOT / name for name in SOURCES], *self.hacl,
-                   "-nostartfiles", "-Wl,--gc-sections,-e,main", "-o", image])  # fmt: skip
+        output_of(
+            [
+                "arm-none-eabi-gcc",
+                *chip,
+                *flags,
+                f"-I{ROOT / 'include'}",
+                program,
+                *[ROOT / name for name in SOURCES],
+                *self.hacl,
+                "-nostartfiles",
+                "-Wl,--gc-sections,-e,main",
+                "-o",
+                image,
+            ]
+        )
         symbols = output_of(["arm-none-eabi-nm", image]).split()
         self.assertIn("Hacl_Hash_SHA2_hash_256", symbols)
         self.assertIn("keel_signing_accepts", symbols)

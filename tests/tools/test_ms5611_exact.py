@@ -84,8 +84,20 @@ class Exact(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
         shim.write_text(SHIM)
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
-                   shim, ROOT / "src/middleware/ms5611.c", "-o", built])  # fmt: skip
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                f"-I{ROOT / 'include'}",
+                shim,
+                ROOT / "src/middleware/ms5611.c",
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
 
     def setUp(self) -> None:

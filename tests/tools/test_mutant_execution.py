@@ -81,14 +81,20 @@ class ExecutionCase(TreeTest):
 
     def executions(self) -> Executions:
         return Executions(
-            self.unit, ("clang-19",), "19", survey(self.root), self.scratch,
-            Cache(self.root / "inputs"), lambda: self.runner(self.root),
-        )  # fmt: skip
+            self.unit,
+            ("clang-19",),
+            "19",
+            survey(self.root),
+            self.scratch,
+            Cache(self.root / "inputs"),
+            lambda: self.runner(self.root),
+        )
 
     def mutant(self, body: str) -> Mutant:
         start = SOURCE.index(BODY)
-        return Mutant(self.unit.source, "keel_box_put", "x", start, start + len(BODY), body, 15,
-                      BODY, body)  # fmt: skip
+        return Mutant(
+            self.unit.source, "keel_box_put", "x", start, start + len(BODY), body, 15, BODY, body
+        )
 
     def kill(self, body: str, made: Executions | None = None) -> Kill | None:
         """What executions say of another body."""
@@ -106,8 +112,11 @@ class Executing(ExecutionCase):
         kill = self.kill("*box = value + 1;")
         assert kill
         self.assertEqual(kill.text, "BOX_001: it holds the value")
-        self.assertEqual(kill.said, "killed: keel_box_put_harness: BOX_001: it holds the value"
-                                    f" (executed, input {kill.number})")  # fmt: skip
+        self.assertEqual(
+            kill.said,
+            "killed: keel_box_put_harness: BOX_001: it holds the value"
+            f" (executed, input {kill.number})",
+        )
         self.assertEqual(len(kill.values), 1)
         self.assertLess(int(kill.values[0], 16), 1000)
 
@@ -131,9 +140,13 @@ class Executing(ExecutionCase):
         self.assertTrue(kill is None or int(kill.values[0], 16) <= 100)
 
     def test_a_crash_is_no_kill(self) -> None:
-        for body in ("*(volatile int *)(value - value) = 1;", "*box = value / (value - value);",
-                     "box[value + 4] = 1;", "*box = value; *box = 2147483647 + value + 1;",
-                     "*box = 1 << (value + 40);"):  # fmt: skip
+        for body in (
+            "*(volatile int *)(value - value) = 1;",
+            "*box = value / (value - value);",
+            "box[value + 4] = 1;",
+            "*box = value; *box = 2147483647 + value + 1;",
+            "*box = 1 << (value + 40);",
+        ):
             with self.subTest(body):
                 self.assertIsNone(self.kill(body))
 
@@ -165,15 +178,24 @@ class Executing(ExecutionCase):
         self.assertEqual((kill.number, kill.values), (0, ()))
 
     def test_structures_are_filled_field_by_field(self) -> None:
-        self.write(HARNESS.replace("static int calls;", """\
+        self.write(
+            HARNESS.replace(
+                "static int calls;",
+                """\
 typedef struct { float x[3]; bool yes; int *p; uint8_t n; } part_t;
 part_t nondet_part(void);
-static int calls;""").replace('#include "', '#include <stdbool.h>\n#include <stdint.h>\n#include "')
-            .replace("int box = 3;", """\
+static int calls;""",
+            )
+            .replace('#include "', '#include <stdbool.h>\n#include <stdint.h>\n#include "')
+            .replace(
+                "int box = 3;",
+                """\
 int box = 3;
 const part_t part = nondet_part();
 __CPROVER_assert((part.p == 0) && ((part.yes == 0) || (part.yes == 1)), "BOX_002: as it is");
-__CPROVER_assume(part.n == 200u);"""))  # fmt: skip
+__CPROVER_assume(part.n == 200u);""",
+            )
+        )
         kill = self.kill("*box = 1001;")
         assert kill
         self.assertEqual((len(kill.values), kill.values[5]), (6, "0xC8"))
@@ -211,8 +233,7 @@ class Checker:
 
 def answer(status: str, complete: bool = True) -> Answer:
     """What CBMC says of the assertion."""
-    said = {"name": "f.assertion.1", "description": "BOX_001: it holds the value",
-            "status": status}  # fmt: skip
+    said = {"name": "f.assertion.1", "description": "BOX_001: it holds the value", "status": status}
     return Answer([said], [], [], complete)
 
 
@@ -221,14 +242,30 @@ class Confirming(ExecutionCase):
 
     def trial(self, every: int = 50) -> Trial:
         tools = Tools(
-            (), ("goto-cc",), ("cbmc",), ("gcc",), dict(os.environ), self.scratch,
-            self.scratch / "a", self.scratch / "v", ("clang-19",), "19", self.root / "inputs",
-        )  # fmt: skip
+            (),
+            ("goto-cc",),
+            ("cbmc",),
+            ("gcc",),
+            dict(os.environ),
+            self.scratch,
+            self.scratch / "a",
+            self.scratch / "v",
+            ("clang-19",),
+            "19",
+            self.root / "inputs",
+        )
         return Trial(
-            self.unit, tools, Trees(self.root, self.scratch, 1), ("cbmc", "wp"), False,
-            Cache(self.root / "cache"), {"tool": "t", BY_CBMC: "1", BY_WP: "1", "driver": "d"},
-            Exceptions(), Times(self.root / "times.json"), confirm=every,
-        )  # fmt: skip
+            self.unit,
+            tools,
+            Trees(self.root, self.scratch, 1),
+            ("cbmc", "wp"),
+            False,
+            Cache(self.root / "cache"),
+            {"tool": "t", BY_CBMC: "1", BY_WP: "1", "driver": "d"},
+            Exceptions(),
+            Times(self.root / "times.json"),
+            confirm=every,
+        )
 
     def tried(self, trial: Trial, body: str, said: Answer) -> tuple[Verdict, Checker]:
         checker = Checker(said)
@@ -282,8 +319,9 @@ class Confirming(ExecutionCase):
 
     def test_what_executions_leave_goes_on(self) -> None:
         verdict, _ = self.tried(self.trial(), "*box = value + 0;", answer("SUCCESS"))
-        self.assertEqual((verdict.status, verdict.engines),
-                         ("survived", {"cbmc": "survived", "wp": "survived"}))  # fmt: skip
+        self.assertEqual(
+            (verdict.status, verdict.engines), ("survived", {"cbmc": "survived", "wp": "survived"})
+        )
 
     def test_the_sample_is_the_first_and_one_of_so_many(self) -> None:
         sample = Sample(3)

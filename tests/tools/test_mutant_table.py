@@ -69,16 +69,20 @@ class TableTest(unittest.TestCase):
             Verdict(mutant("f", 2), "killed", "", BY_CBMC),
             Verdict(mutant("f", 2), "killed", "", BY_WP),
             Verdict(mutant("f", 2), "stillborn", "does not compile"),
-            same_code("f", 3), same_code("f", 3), same_code("g", 9),
+            same_code("f", 3),
+            same_code("f", 3),
+            same_code("g", 9),
             Verdict(mutant("f", 7), "equivalent", "why"),
             Verdict(mutant("f", 5, 'abscissa = "x";', ""), "undecided", "", {"wp": "undecided: g"}),
-        ]  # fmt: skip
+        ]
 
     def accept(self, *identities: Identity) -> None:
         """Write the reasons of people."""
-        entries = [f'[[equivalent]]\nfunction = "{function}"\noriginal = "{before}"\n'
-                   f'mutant = "{after}"\nreason = "why"\n'
-                   for function, before, after, _ in identities]  # fmt: skip
+        entries = [
+            f'[[equivalent]]\nfunction = "{function}"\noriginal = "{before}"\n'
+            f'mutant = "{after}"\nreason = "why"\n'
+            for function, before, after, _ in identities
+        ]
         (self.unit.folder / "equivalent.toml").write_text("\n".join(entries), encoding="utf-8")
 
     def keep(self) -> str:
@@ -100,8 +104,17 @@ class Written(TableTest):
         self.assertEqual(results.made_of("box"), MADE_OF)
         self.assertEqual(mutant_table.text_of(results), self.path.read_text("utf-8"))
         record = results.unit["box"]
-        self.assertEqual(record.summary, {"killed": 4, "survived": 0, "undecided": 1,
-                                          "equivalent": 4, "stillborn": 1, "skipped": 0})
+        self.assertEqual(
+            record.summary,
+            {
+                "killed": 4,
+                "survived": 0,
+                "undecided": 1,
+                "equivalent": 4,
+                "stillborn": 1,
+                "skipped": 0,
+            },
+        )
         self.assertEqual(record.open[0].original, 'abscissa = "x";')
 
     def test_tools_of_which_no_result_is_left_are_dropped(self) -> None:
@@ -154,8 +167,10 @@ class Refused(TableTest):
         with self.assertRaises(ToolError) as raised:
             mutant_table.read(self.root)
         said = str(raised.exception).splitlines()
-        self.assertTrue(any(one.startswith(f"specs/mutation.toml:{line}: ") and reason in one
-                            for one in said), said)  # fmt: skip
+        self.assertTrue(
+            any(one.startswith(f"specs/mutation.toml:{line}: ") and reason in one for one in said),
+            said,
+        )
 
     def test_unchanged_it_is_read(self) -> None:
         self.path.write_text(self.text, encoding="utf-8")
@@ -164,12 +179,17 @@ class Refused(TableTest):
     def test_a_key_that_is_missing(self) -> None:
         for key in mutant_table.Record.model_fields:
             with self.subTest(key):
-                self.refused(f"\n{key} = ", f"\n{key}x = ", "[unit.box]",
-                             f"unit: box: {key}: is missing")  # fmt: skip
+                self.refused(
+                    f"\n{key} = ", f"\n{key}x = ", "[unit.box]", f"unit: box: {key}: is missing"
+                )
 
     def test_a_key_that_is_not_known(self) -> None:
-        self.refused("stillborn = 1", "stillborn = 1\nstilborn = 0", "stilborn",
-                     "unit: box: stilborn: unknown key; did you mean stillborn?")  # fmt: skip
+        self.refused(
+            "stillborn = 1",
+            "stillborn = 1\nstilborn = 0",
+            "stilborn",
+            "unit: box: stilborn: unknown key; did you mean stillborn?",
+        )
         self.refused("[unit.box]", "[units]\n[unit.box]", "[units]", "units: unknown key")
 
     def test_keys_within_a_line(self) -> None:
@@ -179,10 +199,17 @@ class Refused(TableTest):
         self.refused(", line = 5", "", "open", "unit: box: open number 1: line: is missing")
 
     def test_what_is_of_another_kind(self) -> None:
-        for old, new in (("mutants = 10", "mutants = 0"), ("stillborn = 1", "stillborn = -1"),
-                         ("stillborn = 1", 'stillborn = "1"'), ("proofs = \"2", "proofs = \"x"),
-                         ("g = [9]", "g = []"), ("g = [9]", "g = [0]"), ("entry = 2", "entry = 0"),
-                         ("undecided", "killed"), ("keel_box__far_harness", "")):  # fmt: skip
+        for old, new in (
+            ("mutants = 10", "mutants = 0"),
+            ("stillborn = 1", "stillborn = -1"),
+            ("stillborn = 1", 'stillborn = "1"'),
+            ('proofs = "2', 'proofs = "x'),
+            ("g = [9]", "g = []"),
+            ("g = [9]", "g = [0]"),
+            ("entry = 2", "entry = 0"),
+            ("undecided", "killed"),
+            ("keel_box__far_harness", ""),
+        ):
             with self.subTest(new):
                 key = next(line for line in self.text.splitlines() if old in line).split(" = ")[0]
                 key = "open" if old == "undecided" else key
@@ -192,27 +219,51 @@ class Refused(TableTest):
         self.refused('so"]', "so]", "problems", "no TOML")
 
     def test_counts_that_do_not_add_up(self) -> None:
-        self.refused("mutants = 10", "mutants = 11", "mutants",
-                     "unit: box: mutants: 11, but those that are counted below add up to 10")
-        for old, new in (("[3, 3]", "[3]"), ("solved = 2", "solved = 1"),
-                         ("stillborn = 1", "stillborn = 0"),
-                         ("[{entry = 2, line = 7}]", "[]")):  # fmt: skip
+        self.refused(
+            "mutants = 10",
+            "mutants = 11",
+            "mutants",
+            "unit: box: mutants: 11, but those that are counted below add up to 10",
+        )
+        for old, new in (
+            ("[3, 3]", "[3]"),
+            ("solved = 2", "solved = 1"),
+            ("stillborn = 1", "stillborn = 0"),
+            ("[{entry = 2, line = 7}]", "[]"),
+        ):
             with self.subTest(new):
                 self.refused(old, new, "mutants", "add up to 9")
 
     def test_kills_without_a_killer_and_the_other_way_round(self) -> None:
-        self.refused('["keel_box__far_harness", "keel_box_harness"]', "[]", "killers",
-                     "unit: box: killers: 0 harnesses, but 3 mutants")  # fmt: skip
-        self.refused("executed = 1, solved = 2, wp = 1", "executed = 0, solved = 0, wp = 4",
-                     "killers", "unit: box: killers: 2 harnesses, but 0 mutants")  # fmt: skip
+        self.refused(
+            '["keel_box__far_harness", "keel_box_harness"]',
+            "[]",
+            "killers",
+            "unit: box: killers: 0 harnesses, but 3 mutants",
+        )
+        self.refused(
+            "executed = 1, solved = 2, wp = 1",
+            "executed = 0, solved = 0, wp = 4",
+            "killers",
+            "unit: box: killers: 2 harnesses, but 0 mutants",
+        )
 
     def test_what_is_named_twice(self) -> None:
-        self.refused('"keel_box_harness"', '"keel_box__far_harness"', "killers",
-                     "unit: box: killers: names something twice")  # fmt: skip
-        self.refused("{entry = 2, line = 7}", "{entry = 2, line = 7}, {entry = 2, line = 8}",
-                     "accepted", "unit: box: accepted: names something twice")  # fmt: skip
+        self.refused(
+            '"keel_box_harness"',
+            '"keel_box__far_harness"',
+            "killers",
+            "unit: box: killers: names something twice",
+        )
+        self.refused(
+            "{entry = 2, line = 7}",
+            "{entry = 2, line = 7}, {entry = 2, line = 8}",
+            "accepted",
+            "unit: box: accepted: names something twice",
+        )
 
     def test_tools_that_are_not_there_and_tools_of_nobody(self) -> None:
-        self.refused('tools = "a"', 'tools = "b"', "tools",
-                     "unit: box: tools: there is no table [tools.b]")  # fmt: skip
+        self.refused(
+            'tools = "a"', 'tools = "b"', "tools", "unit: box: tools: there is no table [tools.b]"
+        )
         self.refused('tools = "a"', 'tools = "b"', "[tools.a]", "no unit names it")

@@ -94,18 +94,25 @@ class Generation(unittest.TestCase):
                 self.assertEqual(results(body, kind="deletion"), [";"])
 
     def test_declarations_returns_and_loop_headers_are_not_left_out(self) -> None:
-        for body in ("int b = 1;", "const int c = 2;", "return;", "unit_t *const q = p;",
-                     "for (i = 0; f(i) < 3; i++) {"):  # fmt: skip
+        for body in (
+            "int b = 1;",
+            "const int c = 2;",
+            "return;",
+            "unit_t *const q = p;",
+            "for (i = 0; f(i) < 3; i++) {",
+        ):
             with self.subTest(body):
                 self.assertEqual(results(body, kind="deletion"), [])
 
     def test_results_of_the_same_type(self) -> None:
         self.assertEqual(results("return true;", "bool", "result"), ["return false;"])
         self.assertEqual(results("return q;", "box_t *", "result"), ["return NULL;"])
-        self.assertEqual(results("return KEEL_OK;", "keel_status_t", "result"),
-                         ["return KEEL_ERR_STATE;"])  # fmt: skip
-        self.assertEqual(results("return a;", "uint32_t", "result"),
-                         ["return (a) + 1u;", "return 0u;"])  # fmt: skip
+        self.assertEqual(
+            results("return KEEL_OK;", "keel_status_t", "result"), ["return KEEL_ERR_STATE;"]
+        )
+        self.assertEqual(
+            results("return a;", "uint32_t", "result"), ["return (a) + 1u;", "return 0u;"]
+        )
 
     def test_comments_and_annotations_are_left_alone(self) -> None:
         self.assertEqual(results("/* a < 3 */ //@ assert a < 3;\n"), [])
@@ -226,17 +233,36 @@ class Trials(unittest.TestCase):
         header.write_text(HEADER, encoding="utf-8")
         self.unit = Unit(self.root, "rtos", "box")
         environment = {"PATH": os.environ["PATH"]}
-        tools = Tools((), (), (), ("gcc",), environment, scratch, scratch / "answers",
-                      scratch / "verdicts")  # fmt: skip
+        tools = Tools(
+            (), (), (), ("gcc",), environment, scratch, scratch / "answers", scratch / "verdicts"
+        )
         trees = Trees(self.root, scratch, 1)
-        self.trial = Trial(self.unit, tools, trees, (), False, Cache(None), {}, Exceptions(),
-                           Times(scratch / "times.json"))  # fmt: skip
+        self.trial = Trial(
+            self.unit,
+            tools,
+            trees,
+            (),
+            False,
+            Cache(None),
+            {},
+            Exceptions(),
+            Times(scratch / "times.json"),
+        )
 
     def status(self, replacement: str) -> str:
         """What becomes of the header with something else for `a < 3`."""
         start = HEADER.rindex("a < 3")
-        mutant = Mutant(self.unit.header, "keel_box_small", "x", start, start + len("a < 3"),
-                        replacement, 1, "", "")  # fmt: skip
+        mutant = Mutant(
+            self.unit.header,
+            "keel_box_small",
+            "x",
+            start,
+            start + len("a < 3"),
+            replacement,
+            1,
+            "",
+            "",
+        )
         found = self.trial.try_mutant(mutant).status
         self.assertEqual(self.unit.header.read_text(encoding="utf-8"), HEADER)
         return found

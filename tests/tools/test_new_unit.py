@@ -72,8 +72,15 @@ class New(unittest.TestCase):
     def make(self, *words: str) -> tuple[int, str]:
         """Run make in the project, with Keel's rules."""
         command = ["make", "-f", str(ROOT / "keel.mk"), *words]
-        ended = subprocess.run(command, cwd=self.project, stdout=subprocess.PIPE, check=False,
-                               stderr=subprocess.STDOUT, text=True, timeout=900)  # fmt: skip
+        ended = subprocess.run(
+            command,
+            cwd=self.project,
+            stdout=subprocess.PIPE,
+            check=False,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=900,
+        )
         return ended.returncode, ended.stdout
 
     def good(self, *words: str) -> str:
@@ -92,9 +99,11 @@ class New(unittest.TestCase):
 
     def files(self) -> dict[str, str]:
         """The project's files."""
-        return {str(path.relative_to(self.project)): path.read_text(encoding="utf-8")
-                for path in self.project.rglob("*")
-                if path.is_file() and "build" not in path.parts}  # fmt: skip
+        return {
+            str(path.relative_to(self.project)): path.read_text(encoding="utf-8")
+            for path in self.project.rglob("*")
+            if path.is_file() and "build" not in path.parts
+        }
 
     def put(self, place: str, text: str) -> None:
         """Write a file of the project."""
@@ -146,8 +155,11 @@ class New(unittest.TestCase):
         listed = self.files()["proofs/valve/valve_get_harness.c"]
         for label in ("VLV_005_result", "VLV_005_step"):
             self.assertIn(label, listed)
-        for slip, told in (("1.0f", "VLV_004_valve"), ("step[0]", "VLV_005_step"),
-                           ("part.on;", "VLV_005_result")):  # fmt: skip
+        for slip, told in (
+            ("1.0f", "VLV_004_valve"),
+            ("step[0]", "VLV_005_step"),
+            ("part.on;", "VLV_005_result"),
+        ):
             wrong = {"1.0f": "2.0f", "step[0]": "step[1]", "part.on;": "part.on ? false : true;"}
             self.put("src/motor/valve.c", SOURCE.replace(slip, wrong[slip]))
             output = self.make("prove", "ARGS=--engine cbmc")[1]

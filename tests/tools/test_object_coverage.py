@@ -56,11 +56,26 @@ class Evaluation(unittest.TestCase):
 
     def test_flags(self) -> None:
         for condition, holds, fails in (
-            ("eq", Z, 0), ("ne", 0, Z), ("hs", C, 0), ("lo", 0, C), ("mi", N, 0), ("pl", 0, N),
-            ("vs", V, 0), ("vc", 0, V), ("hi", C, C | Z), ("ls", C | Z, C), ("ls", 0, C),
-            ("ge", N | V, N), ("ge", 0, V), ("lt", N, N | V), ("lt", V, 0), ("gt", 0, Z),
-            ("gt", N | V, N), ("le", Z, 0), ("le", V, N | V),
-        ):  # fmt: skip
+            ("eq", Z, 0),
+            ("ne", 0, Z),
+            ("hs", C, 0),
+            ("lo", 0, C),
+            ("mi", N, 0),
+            ("pl", 0, N),
+            ("vs", V, 0),
+            ("vc", 0, V),
+            ("hi", C, C | Z),
+            ("ls", C | Z, C),
+            ("ls", 0, C),
+            ("ge", N | V, N),
+            ("ge", 0, V),
+            ("lt", N, N | V),
+            ("lt", V, 0),
+            ("gt", 0, Z),
+            ("gt", N | V, N),
+            ("le", Z, 0),
+            ("le", V, N | V),
+        ):
             with self.subTest(condition, holds=holds, fails=fails):
                 self.assertTrue(flags_say(condition, holds))
                 self.assertFalse(flags_say(condition, fails))
@@ -111,8 +126,9 @@ class Evaluation(unittest.TestCase):
         self.assertEqual(ended, whole)
         self.assertEqual(seen, {0x100: {True, False}, 0x104: {True, False}, 0x108: {True}})
         asked = [(call.args[3], call.args[4]) for call in logged.call_args_list]
-        self.assertEqual(asked, [(items, trace.LOOK_S), (items[1:], trace.LOOK_S),
-                                 (items[1:], trace.TIMEOUT_S)])  # fmt: skip
+        self.assertEqual(
+            asked, [(items, trace.LOOK_S), (items[1:], trace.LOOK_S), (items[1:], trace.TIMEOUT_S)]
+        )
 
     def test_a_run_that_is_broken_off_before_it_begins(self) -> None:
         tools = mock.Mock()
@@ -184,9 +200,10 @@ class Running(unittest.TestCase):
     def test_outcomes_of_a_run(self) -> None:
         contents, function, elf = self.found("tool_known", self.CODE)
         items = list(Conditions(self.board.tools).of(contents, function))
-        self.assertEqual([(item.kind, item.text) for item in items], [
-            (BRANCH, "cbz r0"), (BRANCH, "bhi"), (BLOCK, "moveq r0, #1"), (BLOCK, "movne r0, #2")
-        ])  # fmt: skip
+        self.assertEqual(
+            [(item.kind, item.text) for item in items],
+            [(BRANCH, "cbz r0"), (BRANCH, "bhi"), (BLOCK, "moveq r0, #1"), (BLOCK, "movne r0, #2")],
+        )
         ended, seen = traced(self.board.tools, self.board.board, elf, items)
         self.assertEqual(ended.status, 0)
         self.assertEqual(
@@ -196,8 +213,12 @@ class Running(unittest.TestCase):
         self.assertEqual(places.at(function.address).unit, f"{OWN}/tool_known.c")
 
     def test_a_selection_counts_and_a_computed_jump_is_refused(self) -> None:
-        for text, kind in (("vselgt.f32 s0, s0, s1", SELECTION), ("tbb [pc, r0]", ""),
-                           ("bx r1", ""), ("mov pc, r1", "")):  # fmt: skip
+        for text, kind in (
+            ("vselgt.f32 s0, s0, s1", SELECTION),
+            ("tbb [pc, r0]", ""),
+            ("bx r1", ""),
+            ("mov pc, r1", ""),
+        ):
             code = self.CODE.replace("cbz r0, 1f", text)
             contents, function, _ = self.found(f"tool_{text[:4].strip()}", code)
             items = Conditions(self.board.tools).of(contents, function)
@@ -235,7 +256,7 @@ class Running(unittest.TestCase):
 
 CONDITION = Condition(
     "src/x.c", "keel_x", 4, BRANCH, "bhi", "src/x.c", 3, "if (a) {", {True, False}
-)  # fmt: skip
+)
 REASON = Reason(function="keel_x", line="if (a) {", never="taken", reason="why")
 
 

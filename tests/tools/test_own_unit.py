@@ -31,8 +31,15 @@ class OwnUnit(unittest.TestCase):
     def make(self, *words: str) -> tuple[int, str]:
         """Run make in the project, with Keel's rules."""
         command = ["make", "-f", str(ROOT / "keel.mk"), *words]
-        ended = subprocess.run(command, cwd=self.project, stdout=subprocess.PIPE, check=False,
-                               stderr=subprocess.STDOUT, text=True, timeout=900)  # fmt: skip
+        ended = subprocess.run(
+            command,
+            cwd=self.project,
+            stdout=subprocess.PIPE,
+            check=False,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=900,
+        )
         return ended.returncode, ended.stdout
 
     def slip(self, old: str, new: str) -> None:
@@ -59,8 +66,14 @@ class OwnUnit(unittest.TestCase):
 
     def dry(self, *words: str) -> str:
         """What the project's own Makefile would run, and what it has to say."""
-        ended = subprocess.run(["make", "-n", *words], cwd=self.project, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True, check=False)  # fmt: skip
+        ended = subprocess.run(
+            ["make", "-n", *words],
+            cwd=self.project,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
         return ended.stdout.replace("\\\n", "")
 
     def test_an_including_makefile_keeps_its_own_names(self) -> None:
@@ -101,10 +114,15 @@ class OwnUnit(unittest.TestCase):
         for name in ("make", "python3", "gcc", "as", "ld", "sh"):
             (programs / name).symlink_to(Path(shutil.which(name) or name).resolve())
         ended = subprocess.run(
-            [programs / "make", "-f", ROOT / "keel.mk", "test"], cwd=self.project, text=True,
+            [programs / "make", "-f", ROOT / "keel.mk", "test"],
+            cwd=self.project,
+            text=True,
             env={"PATH": str(programs), "KEEL_CACHE": str(cache), "KEEL_NO_INSTALL": "1"},
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=900,
-        )  # fmt: skip
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            check=False,
+            timeout=900,
+        )
         self.assertIn("4 of 4 tests passed", ended.stdout)
 
     def test_a_mistake_fails_the_proof_and_is_explained(self) -> None:
@@ -125,8 +143,12 @@ class OwnUnit(unittest.TestCase):
         program = [sys.executable, tools, "prove", "--project", str(self.project)]
 
         def status(unit: str) -> int:
-            return subprocess.run([*program, "--engine", "cbmc", "--unit", unit], check=False,
-                                  capture_output=True, timeout=900).returncode  # fmt: skip
+            return subprocess.run(
+                [*program, "--engine", "cbmc", "--unit", unit],
+                check=False,
+                capture_output=True,
+                timeout=900,
+            ).returncode
 
         self.assertEqual(status("monitor"), 0)
         self.slip("low < BATTERY_MONITOR_SAMPLES", "low <= BATTERY_MONITOR_SAMPLES")

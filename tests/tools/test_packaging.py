@@ -157,8 +157,10 @@ class VcpkgTest(ConsumerTest):
         self.assertEqual((manifest["name"], manifest["version"]), ("keel", VERSION))
         port = (ROOT / "packaging/vcpkg/keel/portfile.cmake").read_text()
         helpers = {one["name"] for one in manifest["dependencies"]}
-        needed = {"vcpkg-cmake-config" if "config" in name else "vcpkg-cmake"
-                  for name in re.findall(r"vcpkg_cmake_(\w+)\(", port)}  # fmt: skip
+        needed = {
+            "vcpkg-cmake-config" if "config" in name else "vcpkg-cmake"
+            for name in re.findall(r"vcpkg_cmake_(\w+)\(", port)
+        }
         self.assertEqual(helpers, needed)
 
 

@@ -52,10 +52,17 @@ fields = ["mode.returns"]
 WRONG: list[tuple[str, str, str]] = [
     ('name = "BAT_LOW"', 'name = "BAT_LOW_VOLTAGE_X"', "x.toml:17: group Battery: parameter"),
     ('name = "BAT_LOW"', 'name = "bat_low"', ": name: expected to match pattern"),
-    ('name = "BAT_LOW"', 'name = "BAT_CELLS"', "x.toml:17: group Battery: parameter BAT_CELLS: "
-     "name: there is another BAT_CELLS"),
-    ('type = "float"', 'type = "double"', "x.toml:18: group Battery: parameter BAT_LOW: type: "
-     "expected to be 'float', 'int32' or 'bool'"),
+    (
+        'name = "BAT_LOW"',
+        'name = "BAT_CELLS"',
+        "x.toml:17: group Battery: parameter BAT_CELLS: name: there is another BAT_CELLS",
+    ),
+    (
+        'type = "float"',
+        'type = "double"',
+        "x.toml:18: group Battery: parameter BAT_LOW: type: "
+        "expected to be 'float', 'int32' or 'bool'",
+    ),
     ("range = [2.5, 4.2]\n", "", "x.toml:16: group Battery: parameter BAT_LOW: a range is what"),
     ("range = [2.5, 4.2]", "range = [2.5]", "x.toml:20: group Battery: parameter BAT_LOW: range:"),
     ("default = 3.5", "default = 2.4", "the default 2.4 is not within 2.5 to 4.2"),
@@ -68,20 +75,27 @@ WRONG: list[tuple[str, str, str]] = [
     ("range = [1, 14]", "range = [1, 2147483648]", "2147483648 is no int32"),
     ("default = true", "default = 1", "1 is no bool"),
     ("default = true", "range = [0, 1]\ndefault = true", "and a bool has not"),
-    ('"mode.returns"', '"battery.cells"', "x.toml:30: group Battery: parameter RETURNS: fields: "
-     "battery.cells is set by another parameter"),
+    (
+        '"mode.returns"',
+        '"battery.cells"',
+        "x.toml:30: group Battery: parameter RETURNS: fields: "
+        "battery.cells is set by another parameter",
+    ),
     ('"mode.returns"', '"mode.returns; x"', "fields: 'mode.returns; x' is no field"),
     ('"mode.returns"', '"2 * mode.returns"', "a factor is for floats"),
     ('fields = ["mode.returns"]', "fields = []", "x.toml:30: group Battery: parameter RETURNS: "),
-    ('"0.5 * other[KEEL_ROLL].value"', '"battery.cells_2"', "parameter BAT_LOW: restart: another "
-     "parameter of battery differs"),
+    (
+        '"0.5 * other[KEEL_ROLL].value"',
+        '"battery.cells_2"',
+        "parameter BAT_LOW: restart: another parameter of battery differs",
+    ),
     ("restart = true", "restart = 1", "parameter BAT_CELLS: restart: expected to be"),
     ('unit = "V"', 'units = "V"', "x.toml:19: group Battery: parameter BAT_LOW: units: unknown"),
     ('description = "A voltage."\n', "", "parameter BAT_LOW: description: is missing"),
     ('description = "A voltage."', 'description = "A | voltage"', "description: expected to match"),
-    ('[[group]]', '[[groups]]', "x.toml:3: groups: unknown key; did you mean group?"),
+    ("[[group]]", "[[groups]]", "x.toml:3: groups: unknown key; did you mean group?"),
     ('name = "copter"', 'name = "copter', "x.toml:1: no TOML"),
-]  # fmt: skip
+]
 
 
 class Files(unittest.TestCase):
@@ -119,8 +133,9 @@ class Made(unittest.TestCase):
             "     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 4.2f}},",
             code,
         )
-        self.assertIn(".highest = {.type = KEEL_PARAMETER_INT32, .whole = 14},\n"
-                      "     .restarts = true},", code)  # fmt: skip
+        self.assertIn(
+            ".highest = {.type = KEEL_PARAMETER_INT32, .whole = 14},\n     .restarts = true},", code
+        )
         self.assertEqual(code.count(".restarts"), 1)
         self.assertIn("settings->battery.cells = (uint8_t)entry[0].value.whole;", code)
         self.assertIn("settings->other[KEEL_ROLL].value = 0.5f * entry[1].value.real;", code)
@@ -137,8 +152,9 @@ class Made(unittest.TestCase):
         self.assertEqual({one["type"] for one in (cells, low, returns)}, {"Float"})  # As sent.
         self.assertEqual([one.get("increment") for one in (cells, low, returns)], [1, None, 1])
         self.assertEqual([one["decimalPlaces"] for one in (cells, low, returns)], [0, 2, 0])
-        self.assertEqual([one["rebootRequired"] for one in (cells, low, returns)],
-                         [True, False, False])  # fmt: skip
+        self.assertEqual(
+            [one["rebootRequired"] for one in (cells, low, returns)], [True, False, False]
+        )
         self.assertEqual((low["default"], low["min"], low["max"]), (3.5, 2.5, 4.2))
         self.assertEqual((low["units"], low["group"]), ("V", "Battery"))
         self.assertEqual([one["value"] for one in returns["values"]], [0, 1])
@@ -146,17 +162,30 @@ class Made(unittest.TestCase):
     def test_PAR_009_the_files_that_ground_stations_load(self) -> None:
         made = parameters.component_files(self.file)
         self.assertEqual(list(made), ["general.json", "parameters.json"])
-        self.assertEqual(json.loads(made["parameters.json"]),
-                         json.loads(parameters.metadata(self.file)))  # fmt: skip
+        self.assertEqual(
+            json.loads(made["parameters.json"]), json.loads(parameters.metadata(self.file))
+        )
         general = json.loads(made["general.json"])
         self.assertEqual(general["version"], 1)
-        self.assertEqual(general["metadataTypes"], [
-            {"type": 1, "uri": "mftp://[;comp=1]/parameters.json",
-             "fileCrc": parameters.crc32(made["parameters.json"])}])  # fmt: skip
+        self.assertEqual(
+            general["metadataTypes"],
+            [
+                {
+                    "type": 1,
+                    "uri": "mftp://[;comp=1]/parameters.json",
+                    "fileCrc": parameters.crc32(made["parameters.json"]),
+                }
+            ],
+        )
         code = parameters.embedded(self.file, "x.toml")
         held = re.findall(r"static const uint8_t (\w+)\[(\d+)\] = \{([^}]*)\}", code)
-        self.assertEqual([(f"{name}.json", bytes(int(one, 16) for one in text.split(",")))
-                          for name, _, text in held], list(made.items()))  # fmt: skip
+        self.assertEqual(
+            [
+                (f"{name}.json", bytes(int(one, 16) for one in text.split(",")))
+                for name, _, text in held
+            ],
+            list(made.items()),
+        )
         self.assertEqual([int(size) for _, size, _ in held], [len(data) for data in made.values()])
 
     def test_PAR_009_sums_are_mavlinks(self) -> None:
@@ -171,10 +200,19 @@ class Made(unittest.TestCase):
 
 # What MAVLink's schema for the metadata of parameters says of each entry, in its words for types.
 ENTRY: dict[str, type | tuple[type, ...]] = {
-    "name": str, "type": str, "shortDesc": str, "units": str, "group": str, "values": list,
-    "default": (int, float), "min": (int, float), "max": (int, float), "decimalPlaces": int,
-    "increment": int, "rebootRequired": bool,
-}  # fmt: skip
+    "name": str,
+    "type": str,
+    "shortDesc": str,
+    "units": str,
+    "group": str,
+    "values": list,
+    "default": (int, float),
+    "min": (int, float),
+    "max": (int, float),
+    "decimalPlaces": int,
+    "increment": int,
+    "rebootRequired": bool,
+}
 
 
 class Metadata(unittest.TestCase):

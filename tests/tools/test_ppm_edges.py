@@ -53,10 +53,17 @@ def taken_of(widths: list[int], judged: int = ALL) -> Taken:
     frames: list[tuple[int, Channels]] = []
     for begin, end in zip(ends, ends[1:], strict=False):
         channels = tuple(widths[begin + 1 : end])
-        right = (begin > 0 and kind(widths[begin]) == "gap" and kind(widths[end]) == "gap"
-                 and LEAST <= len(channels) <= 16
-                 and all(LOWEST <= width <= HIGHEST for index, width in enumerate(channels)
-                         if judged >> index & 1))  # fmt: skip
+        right = (
+            begin > 0
+            and kind(widths[begin]) == "gap"
+            and kind(widths[end]) == "gap"
+            and LEAST <= len(channels) <= 16
+            and all(
+                LOWEST <= width <= HIGHEST
+                for index, width in enumerate(channels)
+                if judged >> index & 1
+            )
+        )
         frames.append((end, channels if right else ()))
     taken: Taken = {}
     for number, row in groupby(frames, lambda frame: len(frame[1])):
@@ -78,8 +85,20 @@ class Edges(unittest.TestCase):
         shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
         shim.write_text(SHIM)
         units = [ROOT / f"src/middleware/{unit}.c" for unit in ("ppm", "framing")]
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
-                   shim, *units, "-o", built])  # fmt: skip
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                f"-I{ROOT / 'include'}",
+                shim,
+                *units,
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
 
     def setUp(self) -> None:
@@ -124,8 +143,9 @@ class Edges(unittest.TestCase):
 
     def test_a_known_stream(self) -> None:
         frame = [8000, 1000, 1500, 2000, 1200, 1800, 1500, 1100, 1900]
-        self.assertEqual(self.feed([5, *frame * 4, 8000]), {
-            28: tuple(frame[1:]), 37: tuple(frame[1:])})  # fmt: skip
+        self.assertEqual(
+            self.feed([5, *frame * 4, 8000]), {28: tuple(frame[1:]), 37: tuple(frame[1:])}
+        )
 
     def test_streams(self) -> None:
         seen = 0
@@ -144,8 +164,24 @@ class Edges(unittest.TestCase):
         self.assertGreater(seen, 1000)
 
     def test_any_times(self) -> None:
-        edges = (1, 799, 800, 801, 1500, 1500, 2199, 2200, 2201, 2299, 2300, 2301, 8000, 8000,
-                 100_000, 100_001)  # fmt: skip
+        edges = (
+            1,
+            799,
+            800,
+            801,
+            1500,
+            1500,
+            2199,
+            2200,
+            2201,
+            2299,
+            2300,
+            2301,
+            8000,
+            8000,
+            100_000,
+            100_001,
+        )
         for _ in range(1000):
             judged = self.random.choice((ALL, STICKS, 0x8421))
             self.assertEqual(self.library.begin(judged), 0)

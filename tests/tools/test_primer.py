@@ -55,9 +55,16 @@ class Primer(unittest.TestCase):
 
     def run_commands(self, text: str) -> tuple[int, str]:
         """Run commands until one fails: the status of the last one, and what all said."""
-        ended = subprocess.run(["sh", "-ec", text], cwd=self.project, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True, check=False, timeout=1500,
-                               env={**os.environ, "KEEL": str(ROOT)})  # fmt: skip
+        ended = subprocess.run(
+            ["sh", "-ec", text],
+            cwd=self.project,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+            timeout=1500,
+            env={**os.environ, "KEEL": str(ROOT)},
+        )
         return ended.returncode, ended.stdout
 
     def change(self, path: Path, difference: str) -> None:

@@ -35,23 +35,11 @@ from keel.c.project import ProjectError, Unit, closure, find_units
 from keel.c.syntax import SyntaxProblem
 from keel.engines import cbmc, wp
 from keel.install import Toolchain, ToolchainError
-from keel.judge import (
-    cbmc_answers,
-    harness,
-    settings,
-)
-from keel.judge import (
-    wp_log as wplog,
-)
-from keel.judge import (
-    wp_targets as targets,
-)
-from keel.judge import (
-    wp_verdict as verdict,
-)
-from keel.judge import (
-    wrong_bodies as wrong,
-)
+from keel.judge import cbmc_answers, harness, settings
+from keel.judge import wp_log as wplog
+from keel.judge import wp_targets as targets
+from keel.judge import wp_verdict as verdict
+from keel.judge import wrong_bodies as wrong
 from keel.judge.cbmc_answers import read_answer, refutation_problems
 from keel.prove import command as prove
 from keel.prove import driver, exports
@@ -159,8 +147,10 @@ class TreeTest(unittest.TestCase):
 class CSource(unittest.TestCase):
     def test_functions_are_found_with_their_bodies(self) -> None:
         found = csource.functions(SOURCE)
-        self.assertEqual([(f.name, f.line, f.static) for f in found],
-                         [("helper", 4, True), ("keel_box_put", 13, False)])  # fmt: skip
+        self.assertEqual(
+            [(f.name, f.line, f.static) for f in found],
+            [("helper", 4, True), ("keel_box_put", 13, False)],
+        )
         self.assertIn("*box = value;", csource.body_of(SOURCE, "keel_box_put"))
         self.assertEqual([f.body for f in csource.functions(HEADER)], [None])
 
@@ -557,8 +547,9 @@ class Keys(TreeTest):
         two = 'harness = "keel_box_put__two_harness"\nexpect = ["BOX_001"]\n\n'
         old = 'harness = "keel_box_put_harness"\nexpect = ["BOX_001"]\n\n'
         self.assertEqual(self.changed_by(one, old, two, 1), {"zero"})
-        self.assertEqual(self.changed_by(one, 'expect = ["BOX_001"]', 'expect = ["BOX"]', 1),
-                         {"zero"})  # fmt: skip
+        self.assertEqual(
+            self.changed_by(one, 'expect = ["BOX_001"]', 'expect = ["BOX"]', 1), {"zero"}
+        )
         before = self.keys()
         self.write_wrong((WRONG + OTHER).replace('"zero"', '"null"'))
         self.assertNotIn(self.keys()["null"], before.values())
@@ -601,8 +592,9 @@ class Choices(unittest.TestCase):
     def test_the_kernel_is_the_scheduler_voter_filter_and_pid(self) -> None:
         units = find_units()
         names = {name for name, unit in units.items() if prove.in_kernel(unit)}
-        self.assertLessEqual({"clock", "queue", "pass", "scheduler", "range", "voter", "filter",
-                              "pid"}, names)  # fmt: skip
+        self.assertLessEqual(
+            {"clock", "queue", "pass", "scheduler", "range", "voter", "filter", "pid"}, names
+        )
         self.assertTrue(names.isdisjoint({"mavlink", "attitude", "mixer", "spread"}))
 
     def test_sizes_are_numbers(self) -> None:
@@ -612,8 +604,12 @@ class Choices(unittest.TestCase):
                 prove.size(text)
 
     def test_a_choice_is_no_shard(self) -> None:
-        for words in (["--kernel", "--shard", "1/2"], ["--size", "A=1", "--join", "f"],
-                      ["--kernel", "--unit", "queue"], ["--patience", "0"]):  # fmt: skip
+        for words in (
+            ["--kernel", "--shard", "1/2"],
+            ["--size", "A=1", "--join", "f"],
+            ["--kernel", "--unit", "queue"],
+            ["--patience", "0"],
+        ):
             with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
                 prove.parse(words, ["queue"])
 
@@ -725,8 +721,10 @@ class Jobs(unittest.TestCase):
         seen = driver.run_jobs(jobs, Cache(None), runner, ONE, times, lambda _: None)
         self.assertEqual(sorted(order[:3]), [("easy", 1), ("hard", 1), ("harder", 1)])
         self.assertEqual(sorted(order[3:]), [("hard", 2), ("harder", 2)])
-        self.assertEqual({one.job.name: one.problems for one in seen},
-                         {"easy": [], "hard": [], "harder": ["open"]})  # fmt: skip
+        self.assertEqual(
+            {one.job.name: one.problems for one in seen},
+            {"easy": [], "hard": [], "harder": ["open"]},
+        )
         order.clear()
         quick = driver.Pool(1, again=False)
         driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), quick, times, lambda _: None)
@@ -751,17 +749,28 @@ class Jobs(unittest.TestCase):
     def test_what_takes_long_is_heard_of_while_it_runs(self) -> None:
         heard: list[str] = []
         ended: list[str] = []
-        job = driver.Job("b", "wp", "slow", lambda: "key", lambda _: time.sleep(1.5) or
-                         {"problems": [], "seconds": 1.5})  # fmt: skip
+        job = driver.Job(
+            "b",
+            "wp",
+            "slow",
+            lambda: "key",
+            lambda _: time.sleep(1.5) or {"problems": [], "seconds": 1.5},
+        )
 
         def late(one: driver.Job, _seconds: float) -> None:
             self.assertEqual(ended, [])
             heard.append(one.name)
 
         with mock.patch("keel.prove.progress.PATIENCE_S", 0.1):
-            driver.run_jobs([job], Cache(None), Runner({}, self.folder), ONE,
-                            Times(self.folder / "times.json"),
-                            lambda one: ended.append(one.job.name), late)  # fmt: skip
+            driver.run_jobs(
+                [job],
+                Cache(None),
+                Runner({}, self.folder),
+                ONE,
+                Times(self.folder / "times.json"),
+                lambda one: ended.append(one.job.name),
+                late,
+            )
         self.assertIn("slow", heard)
         self.assertEqual(ended, ["slow"])
 
@@ -845,9 +854,12 @@ class Rules(TreeTest):
         path = self.root / "units.toml"
         path.write_text('[box]\nno_harness = [{ function = "f", reason = "why" }]\n')
         self.assertEqual(settings.read_exceptions(path, ["box"])["box"].no_harness, {"f": "why"})
-        for text in ('[box]\nno_harness = [{ function = "f" }]\n', "[bax]\n",
-                     '[box]\nno_harness = [{ function = "f", reason = " " }]\n',
-                     "[box]\nno_hardness = []\n"):  # fmt: skip
+        for text in (
+            '[box]\nno_harness = [{ function = "f" }]\n',
+            "[bax]\n",
+            '[box]\nno_harness = [{ function = "f", reason = " " }]\n',
+            "[box]\nno_hardness = []\n",
+        ):
             path.write_text(text)
             with self.subTest(text), self.assertRaises(ProjectError):
                 settings.read_exceptions(path, ["box"])
@@ -918,10 +930,16 @@ class CbmcVerdict(TreeTest):
         self.assertEqual(len(refutation_problems(read_answer("[{"), body)), 1)
 
     def test_only_the_expected_assertions_are_asked_for(self) -> None:
-        listing = json.dumps([{"properties": [
-            {"name": "h.assertion.1", "description": "BOX_001: x"},
-            {"name": "h.assertion.2", "description": "BOX_002: x"},
-        ]}])  # fmt: skip
+        listing = json.dumps(
+            [
+                {
+                    "properties": [
+                        {"name": "h.assertion.1", "description": "BOX_001: x"},
+                        {"name": "h.assertion.2", "description": "BOX_002: x"},
+                    ]
+                }
+            ]
+        )
         self.assertEqual(cbmc.selection(listing, ["BOX_001"]), ["--property", "h.assertion.1"])
 
 
@@ -948,8 +966,11 @@ class Coverage(TreeTest):
         self.assertEqual(self.problems(*goals), [])
 
     def test_the_end_must_be_reached(self) -> None:
-        goals = [goal(self.name, "7-9", True, self.own), goal(self.name, "10", False, self.own),
-                 goal("keel_box_put", "15", True)]  # fmt: skip
+        goals = [
+            goal(self.name, "7-9", True, self.own),
+            goal(self.name, "10", False, self.own),
+            goal("keel_box_put", "15", True),
+        ]
         self.assertIn("no execution reaches the harness's end", self.problems(*goals)[0])
 
     def test_assertions_must_be_reached(self) -> None:
@@ -1006,9 +1027,11 @@ class Harnesses(TreeTest):
                 self.assertEqual(len(harness.text_problems(self.read(text))), 1)
 
     def test_a_stand_in_has_the_contract_that_is_proved(self) -> None:
-        own = HARNESS.replace("keel_box_put", "keel_box_get").replace(
-            "    int box;", "    __CPROVER_assume(keel_box_get_may(1));"
-        ).replace("box == 7", "keel_box_get_does(7)")  # fmt: skip
+        own = (
+            HARNESS.replace("keel_box_put", "keel_box_get")
+            .replace("    int box;", "    __CPROVER_assume(keel_box_get_may(1));")
+            .replace("box == 7", "keel_box_get_does(7)")
+        )
         (self.unit.folder / "keel_box_get_harness.c").write_text(own, encoding="utf-8")
         stand_in = """
 int keel_box_get_stand_in(int box)
@@ -1032,8 +1055,10 @@ int keel_box_get_stand_in(int box)
         (elsewhere / "keel_box_get_harness.c").unlink()
         self.assertIn("get_harness lacks __CPROVER_assume(", problems(text)[0])
         self.assertIn("stand_in lacks", problems(text.replace("assert(keel", "assume(keel"))[0])
-        self.assertIn("is to prove", problems(text.replace("s: keel_box_put", "s: keel_box_get "
-                                                           "keel_box_put"))[0])  # fmt: skip
+        self.assertIn(
+            "is to prove",
+            problems(text.replace("s: keel_box_put", "s: keel_box_get keel_box_put"))[0],
+        )
         own = own.replace("keel_box_get_may(1)", "true")
         (self.unit.folder / "keel_box_get_harness.c").write_text(own, encoding="utf-8")
         self.assertIn("get_harness lacks __CPROVER_assume(", problems(text)[0])
@@ -1047,8 +1072,9 @@ int keel_box_get_stand_in(int box)
             self.read("// sources: src/rtos/box.c copy.c\n" + HARNESS)
 
     def test_a_definition_is_a_number(self) -> None:
-        self.assertEqual(self.read("// defines: -DKEEL_BOX=4u\n" + HARNESS).defines,
-                         ("-DKEEL_BOX=4u",))  # fmt: skip
+        self.assertEqual(
+            self.read("// defines: -DKEEL_BOX=4u\n" + HARNESS).defines, ("-DKEEL_BOX=4u",)
+        )
         for word in ("-D__CPROVER_assert(c,t)=", "-Dfloat_same(a,b)=1", "-DKEEL_OK=KEEL_ERR_NULL"):
             with self.assertRaisesRegex(ProjectError, "takes -DNAME=NUMBER, NAME in"):
                 self.read(f"// defines: {word}\n" + HARNESS)
@@ -1169,8 +1195,10 @@ class WrongBodies(TreeTest):
         self.assertEqual(len(wrong.read_wrong_bodies(self.unit)), 1)
         for name in ("nought.toml", "copy.c"):
             (folder / name).write_text(WRONG, encoding="utf-8")
-            why = (rf"^proofs/box/wrong/{name}: a wrong body belongs into proofs/box/wrong.toml, as"
-                   rf" a \[\[wrong\]\] with the name {name.partition('.')[0]};")  # fmt: skip
+            why = (
+                rf"^proofs/box/wrong/{name}: a wrong body belongs into proofs/box/wrong.toml, as"
+                rf" a \[\[wrong\]\] with the name {name.partition('.')[0]};"
+            )
             with self.assertRaisesRegex(ProjectError, why):
                 self.jobs()
             (folder / name).unlink()
@@ -1187,8 +1215,11 @@ class WrongBodies(TreeTest):
             harness.read_harness(self.unit, self.unit.harnesses[0]), "zero", body
         )
         self.assertEqual(complaint, "")
-        return [word for path in sorted(binary.parent.parent.glob("*.gb"))
-                for word in path.read_text(encoding="utf-8").split()]  # fmt: skip
+        return [
+            word
+            for path in sorted(binary.parent.parent.glob("*.gb"))
+            for word in path.read_text(encoding="utf-8").split()
+        ]
 
     def test_a_wrong_source_is_compiled_in_place_of_the_right_one(self) -> None:
         words = self.built(WRONG)
@@ -1290,8 +1321,15 @@ GOALS = {
     "helper": {"assigns": "Valid", "loop_variant_decrease": "Valid"},
     "keel_box_put": {"ensures_BOX_001": "Valid", "assigns": "Valid"},
 }
-COVERED = [{"goals": [goal("keel_box_put_harness", "7-10", True, Coverage.own),
-                      goal("keel_box_put", "15", True)], "goalsCovered": 2}]  # fmt: skip
+COVERED = [
+    {
+        "goals": [
+            goal("keel_box_put_harness", "7-10", True, Coverage.own),
+            goal("keel_box_put", "15", True),
+        ],
+        "goalsCovered": 2,
+    }
+]
 
 
 class FakeTools:
@@ -1353,8 +1391,16 @@ class WholeRunCase(TreeTest):
     ) -> tuple[int, str, dict[str, Any]]:
         """A run: its status, its output, and its report."""
         unit = find_units(self.root)["box"]
-        choice = Choice((unit,), partial, ("wp", "cbmc"), 2, self.verdict_folder, self.fresh,
-                        update_goals=update, **more)  # fmt: skip
+        choice = Choice(
+            (unit,),
+            partial,
+            ("wp", "cbmc"),
+            2,
+            self.verdict_folder,
+            self.fresh,
+            update_goals=update,
+            **more,
+        )
         output = io.StringIO()
         with contextlib.redirect_stdout(output):
             tools: Any = self.tools
@@ -1419,10 +1465,15 @@ class WholeRun(WholeRunCase):
         self.play(wrong=json.loads(cbmc_output(ASSERTED)))
         self.failing("does not refute", "proved 5 of 5 goals (WP 4, CBMC 1, Gappa 0)")
         log = json.loads((self.report_file.parent / exports.SARIF).read_text(encoding="utf-8"))
-        places = [place["physicalLocation"] for one in log["runs"][0]["results"]
-                  for place in one["locations"]]  # fmt: skip
-        self.assertIn({"artifactLocation": {"uri": "proofs/box/wrong.toml"},
-                       "region": {"startLine": 3}}, places)  # fmt: skip
+        places = [
+            place["physicalLocation"]
+            for one in log["runs"][0]["results"]
+            for place in one["locations"]
+        ]
+        self.assertIn(
+            {"artifactLocation": {"uri": "proofs/box/wrong.toml"}, "region": {"startLine": 3}},
+            places,
+        )
 
     def test_a_wrong_body_that_fails_is_refuted(self) -> None:
         self.unit.wrong_list.write_text(WRONG, encoding="utf-8")
@@ -1526,9 +1577,12 @@ class Interruption(TreeTest):
         )
         (self.root / "tmp").mkdir()
         process = subprocess.Popen(
-            [sys.executable, "-c", script], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-            start_new_session=True, env={**os.environ, "TMPDIR": str(self.root / "tmp")},
-        )  # fmt: skip
+            [sys.executable, "-c", script],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+            env={**os.environ, "TMPDIR": str(self.root / "tmp")},
+        )
         self.assertTrue(wait_for(lambda: bool(running(str(self.root)))), "nothing was started")
         os.kill(process.pid, number)
         process.wait(timeout=WAIT_S)
@@ -1559,16 +1613,23 @@ class CommandLine(unittest.TestCase):
     def test_a_tool_that_is_missing_is_no_traceback(self) -> None:
         error = io.StringIO()
         missing = ToolchainError("cbmc is missing")
-        with mock.patch.object(Toolchain, "ensure", side_effect=missing), \
-                contextlib.redirect_stderr(error):  # fmt: skip
+        with (
+            mock.patch.object(Toolchain, "ensure", side_effect=missing),
+            contextlib.redirect_stderr(error),
+        ):
             self.assertEqual(prove.main([]), 2)
         self.assertEqual(error.getvalue(), "prove: cbmc is missing\n")
 
     def refused(self, *words: str, **variables: str) -> str:
         """What the program says, as a user starts it, of something that could not be tried."""
-        ended = subprocess.run([sys.executable, str(ROOT / "tools/keel"), "prove", *words],
-                               env={**os.environ, **variables}, capture_output=True, text=True,
-                               check=False, timeout=300)  # fmt: skip
+        ended = subprocess.run(
+            [sys.executable, str(ROOT / "tools/keel"), "prove", *words],
+            env={**os.environ, **variables},
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=300,
+        )
         self.assertEqual(ended.returncode, 2, ended.stdout + ended.stderr)
         return ended.stderr
 

@@ -74,9 +74,13 @@ unsigned ppm_pulses(void) { return ppm.count.pulses; }
 """
 
 # The count of a protocol's refusals by a reason.
-COUNTS = {("sbus", "ranges"): "sbus_ranges", ("sbus", "flags"): "sbus_flag_errors",
-          ("sbus", "footers"): "sbus_footers", ("ibus", "ranges"): "ibus_ranges",
-          ("ppm", "pulses"): "ppm_pulses"}  # fmt: skip
+COUNTS = {
+    ("sbus", "ranges"): "sbus_ranges",
+    ("sbus", "flags"): "sbus_flag_errors",
+    ("sbus", "footers"): "sbus_footers",
+    ("ibus", "ranges"): "ibus_ranges",
+    ("ppm", "pulses"): "ppm_pulses",
+}
 
 Part = dict[str, Any]
 
@@ -94,10 +98,24 @@ class Corpus(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
         shim.write_text(SHIM)
-        units = [ROOT / f"src/middleware/{unit}.c"
-                 for unit in ("sbus", "crsf", "ibus", "ppm", "framing", "crc")]  # fmt: skip
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
-                   shim, *units, "-o", built])  # fmt: skip
+        units = [
+            ROOT / f"src/middleware/{unit}.c"
+            for unit in ("sbus", "crsf", "ibus", "ppm", "framing", "crc")
+        ]
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                f"-I{ROOT / 'include'}",
+                shim,
+                *units,
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
         cls.streams = tomllib.loads(CORPUS.read_text())["stream"]
 
@@ -110,8 +128,9 @@ class Corpus(unittest.TestCase):
             return [self.call("ppm_take", width) for width in part["edges"]]
         data = bytes.fromhex(part["bytes"])
         times = [part["after_us"]] + [BYTE_US[protocol]] * len(data)
-        return [self.call(f"{protocol}_take", byte, us)
-                for byte, us in zip(data, times, strict=False)]  # fmt: skip
+        return [
+            self.call(f"{protocol}_take", byte, us) for byte, us in zip(data, times, strict=False)
+        ]
 
     def said(self, protocol: str, part: Part) -> list[int]:
         what = "crsf_link" if part.get("kind") == "link" else f"{protocol}_channel"

@@ -77,9 +77,7 @@ class Judgement(TreeTest):
         recorded = {f"{PUT}_assigns": "cvc4", f"{PUT}_ensures_BOX_001": "qed"}
         result = self.judge(wp_log(*GOOD), wp_report(3, 3), recorded)
         self.assertEqual(result.problems, [])
-        self.assertEqual(
-            result.stale, [f"{PUT}_assigns: recorded is cvc4, but alt-ergo proved it"]
-        )
+        self.assertEqual(result.stale, [f"{PUT}_assigns: recorded is cvc4, but alt-ergo proved it"])
 
     def test_what_qed_proves_needs_no_prover(self) -> None:
         recorded = {f"{PUT}_ensures_BOX_001": "cvc4", f"{PUT}_assigns": "alt-ergo"}
@@ -184,8 +182,11 @@ class Asking(TreeTest):
                 recorded = {f"{PUT}_assigns": name, f"{PUT}_b": "z3"}
                 self.prover.prove(self.function, wp.THOROUGH, False, recorded=recorded)
             [command] = run.call_args.args
-            searched = [word == "-wp-pruning" for word in command[command.index("-then") :]
-                        if word.endswith("-pruning") or word == "-wp-no-pruning"]  # fmt: skip
+            searched = [
+                word == "-wp-pruning"
+                for word in command[command.index("-then") :]
+                if word.endswith("-pruning") or word == "-wp-no-pruning"
+            ]
             self.assertEqual(searched, expected)
             self.assertEqual(judged.call_args.args[-1], frozenset([expected.index(True) + 1]))
 

@@ -97,9 +97,15 @@ class RegistersTest(unittest.TestCase):
         """As the table was before: the same four pins and channels, from the other end."""
         path = self.root / "bsp/fmuv5/pins.c"
         text = path.read_text()
-        lines = {name: f"KEEL_OUTPUT({name})" for name in (
-            "E, 14u, 1u, TIM1, CH4", "A, 10u, 1u, TIM1, CH3", "E, 11u, 1u, TIM1, CH2",
-            "E, 9u, 1u, TIM1, CH1")}  # fmt: skip
+        lines = {
+            name: f"KEEL_OUTPUT({name})"
+            for name in (
+                "E, 14u, 1u, TIM1, CH4",
+                "A, 10u, 1u, TIM1, CH3",
+                "E, 11u, 1u, TIM1, CH2",
+                "E, 9u, 1u, TIM1, CH1",
+            )
+        }
         for name, other in zip(lines, reversed(lines), strict=True):
             self.assertEqual(text.count(lines[name]), 1)
             text = text.replace(lines[name], f"@{other}@")
@@ -140,8 +146,9 @@ class RegistersTest(unittest.TestCase):
         self.finds("MEMORY_SRAM_SIZE", "0x80000", "has 0x60000")
 
     def test_a_fact_without_a_counterpart_is_a_difference(self) -> None:
-        self.change(RCC, "#define RCC_CR_HSION ", "#define RCC_CR_HSIXX BITS(0u, 1u)\n"
-                    "#define RCC_CR_HSION ")  # fmt: skip
+        self.change(
+            RCC, "#define RCC_CR_HSION ", "#define RCC_CR_HSIXX BITS(0u, 1u)\n#define RCC_CR_HSION "
+        )
         self.finds("RCC_CR_HSIXX", "no counterpart")
 
     def test_an_entry_without_use_is_a_difference(self) -> None:

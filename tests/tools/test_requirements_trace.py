@@ -147,13 +147,15 @@ class TraceTest(unittest.TestCase):
 
     def test_label_without_requirement(self) -> None:
         self.change("include/keel/widget.h", "ensures ok:", "ensures WID_009_ok:")
-        self.assertEqual(self.orphans(), [
-            "include/keel/widget.h: WID_009_ok: there is no requirement WID-009"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(), ["include/keel/widget.h: WID_009_ok: there is no requirement WID-009"]
+        )
 
     def test_lemma_without_requirement(self) -> None:
         self.change("include/keel/widget.h", "ensures ok:", "lemma WID_009_ok{Here}:")
-        self.assertEqual(self.orphans(), [
-            "include/keel/widget.h: WID_009_ok: there is no requirement WID-009"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(), ["include/keel/widget.h: WID_009_ok: there is no requirement WID-009"]
+        )
 
     def test_comment_without_requirement(self) -> None:
         self.change("include/keel/widget.h", "requirement WID-001", "requirement WID-009")
@@ -161,19 +163,24 @@ class TraceTest(unittest.TestCase):
 
     def test_harness_without_requirement(self) -> None:
         self.write("proofs/widget/more_harness.c", '__CPROVER_assert(x, "WID_009: more");\n')
-        self.assertEqual(self.orphans(), [
-            "proofs/widget/more_harness.c: WID_009: there is no requirement WID-009"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            ["proofs/widget/more_harness.c: WID_009: there is no requirement WID-009"],
+        )
 
     def test_test_without_requirement(self) -> None:
         self.write("tests/unit/test_more.c", "RUN_TEST(WID_009_more);\n")
-        self.assertEqual(self.orphans(), [
-            "tests/unit/test_more.c: WID_009_more: there is no requirement WID-009"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            ["tests/unit/test_more.c: WID_009_more: there is no requirement WID-009"],
+        )
 
     def test_reference_test_without_requirement(self) -> None:
         self.write("tests/reference/test_more.cpp", 'suite.check("WID_009_more", ok, "no");\n')
-        self.assertEqual(self.orphans(), [
-            "tests/reference/test_more.cpp: WID_009_more: there is no requirement WID-009"
-        ])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            ["tests/reference/test_more.cpp: WID_009_more: there is no requirement WID-009"],
+        )
 
     def test_a_reference_test_is_enough_for_a_clause(self) -> None:
         self.change("proofs/widget/turn_harness.c", "WID_001_turns", "turns")
@@ -183,9 +190,13 @@ class TraceTest(unittest.TestCase):
     def test_requirement_without_clause(self) -> None:
         self.write("include/keel/widget.h", "/** Turns. */\n")
         self.write("src/rtos/widget.c", "")
-        self.assertEqual(self.orphans(), [
-            "WID-001: CLAUSES is not what the headers say (tools/keel trace --update)",
-            "WID-001: no clause states it"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "WID-001: CLAUSES is not what the headers say (tools/keel trace --update)",
+                "WID-001: no clause states it",
+            ],
+        )
 
     def test_clause_that_nobody_checks(self) -> None:
         self.change("proofs/widget/turn_harness.c", "WID_001_turns", "turns")
@@ -208,9 +219,13 @@ class TraceTest(unittest.TestCase):
 
     def test_a_model_that_is_not_compared_says_nothing(self) -> None:
         self.model("/* WID-001 */\n", "/* " + self.include + " */")
-        self.assertEqual(self.orphans(), [
-            "WID-001: neither a harness nor a test names it",
-            "specs/model/widget.c: no harness compares the code with this model"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "WID-001: neither a harness nor a test names it",
+                "specs/model/widget.c: no harness compares the code with this model",
+            ],
+        )
 
     def test_only_comments_of_a_model_name_requirements(self) -> None:
         self.model('const char *text = "WID-001";\n', self.include)
@@ -227,10 +242,14 @@ class TraceTest(unittest.TestCase):
 
     def test_requirement_to_be_tested_without_test(self) -> None:
         self.change("specs/requirements/widget.sdoc", "TESTS: it_loops\n", "")
-        self.assertEqual(self.orphans(), [
-            "HLR-002: VERIFICATION says test, and neither it nor a low-level requirement of it"
-            " has tests",
-            "WID-002: no test checks it"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "HLR-002: VERIFICATION says test, and neither it nor a low-level requirement of it"
+                " has tests",
+                "WID-002: no test checks it",
+            ],
+        )
 
     def test_listed_test_that_does_not_exist(self) -> None:
         self.change("specs/requirements/widget.sdoc", "it_loops", "it_loops, it_stops")
@@ -247,8 +266,7 @@ class TraceTest(unittest.TestCase):
 
     def test_unknown_verification(self) -> None:
         self.change("specs/requirements/widget.sdoc", ": theorem", ": hope")
-        self.assertEqual(self.orphans(), [
-            "WID-003: VERIFICATION is not of proof, test, theorem"])  # fmt: skip
+        self.assertEqual(self.orphans(), ["WID-003: VERIFICATION is not of proof, test, theorem"])
 
     def test_two_requirements_with_one_id(self) -> None:
         self.change("specs/requirements/widget.sdoc", "WID-003", "WID-002")
@@ -269,10 +287,14 @@ class TraceTest(unittest.TestCase):
 
     def test_a_requirement_without_a_parent(self) -> None:
         self.change(self.low, "<<<\nRELATIONS:\n- TYPE: Parent\n  VALUE: HLR-001\n", "<<<\n")
-        self.assertEqual(self.orphans(), [
-            "HLR-001: VERIFICATION says proof, and none of its low-level requirements is proved",
-            "HLR-001: no low-level requirement has it as its parent, and it lists no tests",
-            "WID-001: it has no parent, and no DERIVED says why"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "HLR-001: VERIFICATION says proof, and none of its low-level requirements is proved",
+                "HLR-001: no low-level requirement has it as its parent, and it lists no tests",
+                "WID-001: it has no parent, and no DERIVED says why",
+            ],
+        )
 
     def test_a_parent_that_does_not_exist(self) -> None:
         self.change(self.low, "VALUE: HLR-001", "VALUE: HLR-001\n- TYPE: Parent\n  VALUE: HLR-009")
@@ -280,8 +302,9 @@ class TraceTest(unittest.TestCase):
 
     def test_a_parent_of_the_same_level(self) -> None:
         self.change(self.low, "VALUE: HLR-001", "VALUE: HLR-001\n- TYPE: Parent\n  VALUE: WID-002")
-        self.assertEqual(self.orphans(), [
-            "WID-001: its parent WID-002 is no high-level requirement"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(), ["WID-001: its parent WID-002 is no high-level requirement"]
+        )
 
     def test_what_has_a_parent_is_not_derived(self) -> None:
         self.change(self.low, "loop.\n", "loop.\nDERIVED: For fun.\n")
@@ -290,23 +313,35 @@ class TraceTest(unittest.TestCase):
     def test_a_requirement_that_nobody_refines(self) -> None:
         more = "\n[REQUIREMENT]\nUID: HLR-003\nTITLE: More\nVERIFICATION: test\nSOURCE: fig. 2\n"
         self.write(self.high, HIGH + more + "STATEMENT: More.\nRATIONALE: More is more.\n")
-        self.assertEqual(self.orphans(), [
-            "HLR-003: VERIFICATION says test, and neither it nor a low-level requirement of it"
-            " has tests",
-            "HLR-003: no low-level requirement has it as its parent, and it lists no tests",
-        ])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "HLR-003: VERIFICATION says test, and neither it nor a low-level requirement of it"
+                " has tests",
+                "HLR-003: no low-level requirement has it as its parent, and it lists no tests",
+            ],
+        )
 
     def test_a_source_that_cites_nothing(self) -> None:
         self.change(self.high, "eq. 1; section III-A", "the paper")
-        self.assertEqual(self.orphans(), [
-            "HLR-001: its SOURCE cites no equation, section, figure or table, and no DERIVED says"
-            " why"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "HLR-001: its SOURCE cites no equation, section, figure or table, and no DERIVED says"
+                " why"
+            ],
+        )
 
     def test_a_requirement_without_its_texts(self) -> None:
-        self.write(self.high, HIGH.replace("STATEMENT: It shall move.\n", "").replace(
-            "RATIONALE: Widgets that stand still are no use.\n", ""))  # fmt: skip
-        self.assertEqual(self.orphans(), [
-            "HLR-001: it has no RATIONALE", "HLR-001: it has no STATEMENT"])  # fmt: skip
+        self.write(
+            self.high,
+            HIGH.replace("STATEMENT: It shall move.\n", "").replace(
+                "RATIONALE: Widgets that stand still are no use.\n", ""
+            ),
+        )
+        self.assertEqual(
+            self.orphans(), ["HLR-001: it has no RATIONALE", "HLR-001: it has no STATEMENT"]
+        )
 
     def test_a_departure_that_the_document_does_not_tell(self) -> None:
         text = "DEPARTURE and docs/paper.md do not agree on whether it departs from the paper"
@@ -315,26 +350,37 @@ class TraceTest(unittest.TestCase):
 
     def test_a_function_without_a_requirement(self) -> None:
         self.write("src/rtos/widget.c", SOURCE + "\nvoid keel_widget_stop(void)\n{\n}\n")
-        self.assertEqual(self.orphans(), [
-            "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a requirement's"
-            " id"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a requirement's"
+                " id"
+            ],
+        )
 
     def test_a_dropped_label(self) -> None:
         self.write("include/keel/widget.h", HEADER.replace("WID_001_turns", "turns"))
         self.write(self.low, SDOC.replace(", WID_001_turns", ""))
-        self.assertEqual(self.orphans(), [
-            "src/rtos/widget.c: keel_widget_turn: no clause of its contract bears a requirement's"
-            " id",
-            "src/rtos/widget.c: nudge: not all of its callers trace to a requirement: push",
-            "src/rtos/widget.c: push: not all of its callers trace to a requirement:"
-            " keel_widget_turn",
-        ])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "src/rtos/widget.c: keel_widget_turn: no clause of its contract bears a requirement's"
+                " id",
+                "src/rtos/widget.c: nudge: not all of its callers trace to a requirement: push",
+                "src/rtos/widget.c: push: not all of its callers trace to a requirement:"
+                " keel_widget_turn",
+            ],
+        )
 
     def test_a_static_function_that_nobody_calls(self) -> None:
         self.change("src/rtos/widget.c", "    push();\n", "")
-        self.assertEqual(self.orphans(), [
-            "src/rtos/widget.c: nudge: not all of its callers trace to a requirement: push",
-            "src/rtos/widget.c: push: nothing calls this static function"])  # fmt: skip
+        self.assertEqual(
+            self.orphans(),
+            [
+                "src/rtos/widget.c: nudge: not all of its callers trace to a requirement: push",
+                "src/rtos/widget.c: push: nothing calls this static function",
+            ],
+        )
 
     def test_no_requirement_at_all(self) -> None:
         with tempfile.TemporaryDirectory() as empty, contextlib.redirect_stdout(io.StringIO()):

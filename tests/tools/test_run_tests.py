@@ -204,8 +204,13 @@ class Pytest(unittest.TestCase):
         with mock.patch.object(run_tests, "BUILD", folder):
             outcome = run_tests.python_suite("tools/real", source, "tools-tests", may_skip=True)
         self.assertEqual(outcome.passed, 1)
-        self.assertTrue(any("test_real.T.test_b: failure: AssertionError: 1 != 2" in text
-                            for text in outcome.failures), outcome.failures)  # fmt: skip
+        self.assertTrue(
+            any(
+                "test_real.T.test_b: failure: AssertionError: 1 != 2" in text
+                for text in outcome.failures
+            ),
+            outcome.failures,
+        )
         self.assertIn("/test_real.py:6: ", "".join(outcome.failures))
         self.assertTrue(any("3 != 4" in text for text in outcome.failures), outcome.failures)
 

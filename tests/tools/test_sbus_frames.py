@@ -54,8 +54,11 @@ def decoded(frame: bytes) -> Channels:
 
 
 def is_right(frame: bytes, judged: int = ALL) -> bool:
-    plausible = all(LOWEST <= value <= HIGHEST for index, value in enumerate(decoded(frame))
-                    if judged >> index & 1)  # fmt: skip
+    plausible = all(
+        LOWEST <= value <= HIGHEST
+        for index, value in enumerate(decoded(frame))
+        if judged >> index & 1
+    )
     return frame[0] == 0x0F and frame[23] < 16 and frame[24] in FOOTERS and plausible
 
 
@@ -71,8 +74,20 @@ class Frames(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
         shim.write_text(SHIM)
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
-                   shim, ROOT / "src/middleware/sbus.c", "-o", built])  # fmt: skip
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                f"-I{ROOT / 'include'}",
+                shim,
+                ROOT / "src/middleware/sbus.c",
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
 
     def setUp(self) -> None:

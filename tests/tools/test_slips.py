@@ -70,11 +70,14 @@ class Beyond(unittest.TestCase):
         self.assertEqual(beyond("p->side[a] = 1u;"), [])
 
     def test_a_size_comes_round_and_a_comparison_changes(self) -> None:
-        self.assertEqual(beyond("return p->width < 9u;", 64), [
-            "return (p->width % 64u) < 9u;",
-            "return ((p->width < 9u) && (p->width < 64u));",
-            "return ((p->width < 9u) || (p->width >= 64u));",
-        ])  # fmt: skip
+        self.assertEqual(
+            beyond("return p->width < 9u;", 64),
+            [
+                "return (p->width % 64u) < 9u;",
+                "return ((p->width < 9u) && (p->width < 64u));",
+                "return ((p->width < 9u) || (p->width >= 64u));",
+            ],
+        )
         self.assertEqual(beyond("return p->width == 9u;", 64), [])
         self.assertEqual(len(beyond("return a > BOX_RED;", 64, 256)), 6)
 
@@ -88,10 +91,13 @@ class Beyond(unittest.TestCase):
     def test_a_loop_that_counts_nothing_ends_by_a_number_beside(self) -> None:
         loop = "while (p->width != 0u) { g(p); }"
         names = ["depth", "height", "width"]
-        self.assertEqual(beyond(loop, 16), [
-            loop.replace("p->width != 0u", f"(p->width != 0u) && (p->{name} < 16u)")
-            for name in names
-        ])  # fmt: skip
+        self.assertEqual(
+            beyond(loop, 16),
+            [
+                loop.replace("p->width != 0u", f"(p->width != 0u) && (p->{name} < 16u)")
+                for name in names
+            ],
+        )
 
     def test_no_slip_has_a_block_of_its_own(self) -> None:
         body = "for (int i = 0; i < a; i++) { if (i > 3) { p->side[i] = 1u; } }"
@@ -114,8 +120,10 @@ class Beyond(unittest.TestCase):
 
 class Slips(unittest.TestCase):
     def test_two_statements_are_exchanged(self) -> None:
-        self.assertEqual(made("p->x = 1;\n    a = p->x;\n    a++;", "order"),
-                         ["a = p->x; p->x = 1;", "a++; a = p->x;"])  # fmt: skip
+        self.assertEqual(
+            made("p->x = 1;\n    a = p->x;\n    a++;", "order"),
+            ["a = p->x; p->x = 1;", "a++; a = p->x;"],
+        )
 
     def test_also_in_a_branch_with_what_stands_between(self) -> None:
         body = "if (a) {\n    a = 1;\n    //@ assert a == 1;\n    g(a);\n    }"
@@ -127,8 +135,10 @@ class Slips(unittest.TestCase):
         for body in ("int b;\n    int c;", "a = 1;\n    return a;", "g(a);\n    break;"):
             with self.subTest(body):
                 self.assertEqual(made(body, "order"), [])
-        self.assertEqual(made("const int b[2] = {1, 2};\n    int c = b[0];", "order"),
-                         ["int c = b[0]; const int b[2] = {1, 2};"])  # fmt: skip
+        self.assertEqual(
+            made("const int b[2] = {1, 2};\n    int c = b[0];", "order"),
+            ["int c = b[0]; const int b[2] = {1, 2};"],
+        )
 
     def test_a_write_comes_before_its_check(self) -> None:
         body = "if (a > 3) {\n        return 1;\n    }\n    p->x = a;"
@@ -159,8 +169,12 @@ class Slips(unittest.TestCase):
                 self.assertEqual(bool(made(body, "order")), exchanged)
 
     def test_what_only_computes_may_stand_before_a_check(self) -> None:
-        for statement, moved in (("b = g(a);", False), ("const int b = 1;", False),
-                                 ("*p = 1;", True), ("g(a);", True)):  # fmt: skip
+        for statement, moved in (
+            ("b = g(a);", False),
+            ("const int b = 1;", False),
+            ("*p = 1;", True),
+            ("g(a);", True),
+        ):
             with self.subTest(statement):
                 body = "if (a > 3) {\n        return 1;\n    }\n    " + statement
                 self.assertEqual(bool(made(body, "early")), moved)
@@ -169,14 +183,13 @@ class Slips(unittest.TestCase):
         body = (
             "if (a) {\n    a = 1;\n    } else if (b) {\n    a = 2;\n    } else {\n    a = 3;\n    }"
         )
-        self.assertEqual(made(body, "branch"), [
-            ";", "} else if (b) {} else {", "} else {}",
-        ])  # fmt: skip
+        self.assertEqual(made(body, "branch"), [";", "} else if (b) {} else {", "} else {}"])
 
     def test_a_value_is_computed_and_not_taken(self) -> None:
         self.assertEqual(made("a = g(1);", "stale"), ["(void)(g(1));"])
-        self.assertEqual(made("p->x[a] = (a == 1) ? 2 : 3;", "stale"),
-                         ["(void)((a == 1) ? 2 : 3);"])  # fmt: skip
+        self.assertEqual(
+            made("p->x[a] = (a == 1) ? 2 : 3;", "stale"), ["(void)((a == 1) ? 2 : 3);"]
+        )
         for body in ("const int b = g(1);", "box_t *b = g(1);", "a = 1;", "g(a == 1);"):
             with self.subTest(body):
                 self.assertEqual(made(body, "stale"), [])
@@ -185,9 +198,13 @@ class Slips(unittest.TestCase):
         cases = {
             "if (a && b && !g(c)) {": ["if(b&&!g(c)){", "if(a&&!g(c)){", "if(a&&b){"],
             "a = (b || (c && d)) ? 1 : 2;": [
-                "a=((c&&d))?1:2;", "a=(b)?1:2;", "a=(b||(d))?1:2;", "a=(b||(c))?1:2;"],
+                "a=((c&&d))?1:2;",
+                "a=(b)?1:2;",
+                "a=(b||(d))?1:2;",
+                "a=(b||(c))?1:2;",
+            ],
             "return a || b;": ["returnb;", "returna;"],
-        }  # fmt: skip
+        }
         for body, wanted in cases.items():
             with self.subTest(body):
                 self.assertEqual([text.replace(" ", "") for text in made(body, "clause")], wanted)
@@ -199,14 +216,23 @@ class Slips(unittest.TestCase):
                 self.assertEqual([text for text in made(body, "field") if "height" not in body], [])
 
     def test_the_neighbours_index_is_used(self) -> None:
-        self.assertEqual(made("a[i] = b[j];", "index"), [
-            "a[0u] = b[j];", "a[i + 1u] = b[j];", "a[j] = b[j];",
-            "a[i] = b[0u];", "a[i] = b[i];", "a[i] = b[j + 1u];",
-        ])  # fmt: skip
+        self.assertEqual(
+            made("a[i] = b[j];", "index"),
+            [
+                "a[0u] = b[j];",
+                "a[i + 1u] = b[j];",
+                "a[j] = b[j];",
+                "a[i] = b[0u];",
+                "a[i] = b[i];",
+                "a[i] = b[j + 1u];",
+            ],
+        )
 
     def test_arguments_are_exchanged(self) -> None:
-        self.assertEqual(made("g(a, h(b, c), d);", "arguments"), [
-            "g(a, d, h(b, c));", "g(h(b, c), a, d);", "g(a, h(c, b), d);"])  # fmt: skip
+        self.assertEqual(
+            made("g(a, h(b, c), d);", "arguments"),
+            ["g(a, d, h(b, c));", "g(h(b, c), a, d);", "g(a, h(c, b), d);"],
+        )
         self.assertEqual(made("if (a) {", "arguments") + made("g(a, a);", "arguments"), [])
 
     def test_another_constant_of_its_kind_is_used(self) -> None:

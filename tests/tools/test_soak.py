@@ -39,8 +39,11 @@ def test_a_difference_is_told_and_reported(
     changed = source.replace("pid->config.integral_min", "-pid->config.integral_max")
     assert changed != source
     broken.write_text(changed, encoding="utf-8")
-    others = [path.relative_to(soak.ROOT).as_posix() for path in (soak.ROOT / "src").rglob("*.c")
-              if path.name != "pid.c"]  # fmt: skip
+    others = [
+        path.relative_to(soak.ROOT).as_posix()
+        for path in (soak.ROOT / "src").rglob("*.c")
+        if path.name != "pid.c"
+    ]
     monkeypatch.setattr(soak, "KERNEL", [*others, str(broken)])
     assert soak.main(["--steps", str(FEW)]) == 1
     report = json.loads((own_folder / "report.json").read_text(encoding="utf-8"))

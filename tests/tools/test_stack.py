@@ -55,23 +55,30 @@ def graph_of(*lines: str) -> dict[str, Function]:
 
 # reset -> main -> (left -> deep) or right; left is the shorter frame, but deeper below.
 DIAMOND = (
-    node("reset", "8 bytes (static)"), node("main", "16 bytes (static)"), edge("reset", "main"),
-    node("x.c:left", "8 bytes (static)"), edge("main", "x.c:left"),
-    node("x.c:right", "40 bytes (static)"), edge("main", "x.c:right"),
-    node("deep"), edge("x.c:left", "deep"),
-)  # fmt: skip
+    node("reset", "8 bytes (static)"),
+    node("main", "16 bytes (static)"),
+    edge("reset", "main"),
+    node("x.c:left", "8 bytes (static)"),
+    edge("main", "x.c:left"),
+    node("x.c:right", "40 bytes (static)"),
+    edge("main", "x.c:right"),
+    node("deep"),
+    edge("x.c:left", "deep"),
+)
 DEEP = node("deep", "64 bytes (static)")
 SIZES = {"main": 1024}
 RESET = Entry(function="reset")
 
 
 def table_of(
-    tasks: tuple[str, ...] = (), indirect: dict[str, tuple[str, ...]] | None = None,
+    tasks: tuple[str, ...] = (),
+    indirect: dict[str, tuple[str, ...]] | None = None,
     entries: tuple[Entry, ...] = (RESET,),
-) -> StackTable:  # fmt: skip
+) -> StackTable:
     """A table."""
-    calls = [Indirect(caller=name, calls=[*them], reason="r")
-             for name, them in (indirect or {}).items()]  # fmt: skip
+    calls = [
+        Indirect(caller=name, calls=[*them], reason="r") for name, them in (indirect or {}).items()
+    ]
     return StackTable(tasks=[*tasks], indirect=calls, entry=[*entries])
 
 
@@ -239,19 +246,24 @@ class AnalysisTest(unittest.TestCase):
     def test_an_indirect_call_takes_the_deepest_target(self) -> None:
         table = table_of(("work",), {"main": ("clock", "tasks")})
         bytes_, tasks = self.analyse(
-            edge("main", "__indirect_call"), node("clock", "4 bytes (static)"),
-            node("y.c:work", "100 bytes (static)"), edge("y.c:work", "deep"), table=table,
-        )  # fmt: skip
+            edge("main", "__indirect_call"),
+            node("clock", "4 bytes (static)"),
+            node("y.c:work", "100 bytes (static)"),
+            edge("y.c:work", "deep"),
+            table=table,
+        )
         self.assertEqual(bytes_, 8 + 16 + 100 + 64 + 108)
         self.assertEqual(tasks, {"work": 164})
 
     def test_a_clone_calls_what_its_original_calls(self) -> None:
         table = table_of((), {"f": ("g",)})
         bytes_, _ = self.analyse(
-            node("x.c:f.constprop.0", "8 bytes (static)"), edge("main", "x.c:f.constprop.0"),
-            edge("x.c:f.constprop.0", "__indirect_call"), node("g", "200 bytes (static)"),
+            node("x.c:f.constprop.0", "8 bytes (static)"),
+            edge("main", "x.c:f.constprop.0"),
+            edge("x.c:f.constprop.0", "__indirect_call"),
+            node("g", "200 bytes (static)"),
             table=table,
-        )  # fmt: skip
+        )
         self.assertEqual(bytes_, 8 + 16 + 8 + 200 + 108)
 
     def test_targets_that_are_not_there_are_an_error(self) -> None:
@@ -305,11 +317,18 @@ class IdleTest(unittest.TestCase):
 
     def idle(self, *names: str) -> list[str]:
         graph: dict[str, Function] = {}
-        text = "\n".join([
-            *(node(name, "8 bytes (static)") for name in ("start", "step", "task", "a.c:twice")),
-            edge("start", "step"), edge("step", "task"), edge("task", "a.c:twice"),
-            edge("a.c:twice", "step"),
-        ])  # fmt: skip
+        text = "\n".join(
+            [
+                *(
+                    node(name, "8 bytes (static)")
+                    for name in ("start", "step", "task", "a.c:twice")
+                ),
+                edge("start", "step"),
+                edge("step", "task"),
+                edge("task", "a.c:twice"),
+                edge("a.c:twice", "step"),
+            ]
+        )
         parse(text, graph)
         code = {name: Code() for name in ("start", "step", "task", "twice", "alone")}
         code["also_task"] = code["task"]  # Another name of it.
@@ -348,12 +367,13 @@ class FilesTest(unittest.TestCase):
             "entry = []": "toml:1: entry: expected to have at least 1 item",
             entry + "[other]": "toml:3: other: unknown key",
             "tasks = [": "toml:1: no TOML: ",
-            entry + '[[indirect]]\ncaller = "a"\ncalls = ["b"]':
-                "toml:3: indirect number 1: reason: is missing",
-            entry + '[[indirect]]\ncaller = "a"\ncalls = []\nreason = "r"\n' * 2:
-                "toml:8: indirect number 2: caller: a has two entries",
+            entry
+            + '[[indirect]]\ncaller = "a"\ncalls = ["b"]': "toml:3: indirect number 1: reason: is missing",
+            entry
+            + '[[indirect]]\ncaller = "a"\ncalls = []\nreason = "r"\n'
+            * 2: "toml:8: indirect number 2: caller: a has two entries",
             '[[entry]]\nname = "reset"': "toml:1: entry reset: function: is missing",
-        }  # fmt: skip
+        }
         for text, reason in bad.items():
             with self.assertRaisesRegex(ToolError, reason):
                 self.table(text)
@@ -364,9 +384,11 @@ class FilesTest(unittest.TestCase):
 
     def test_too_little_room_fails_and_is_reported(self) -> None:
         report = {
-            "board": "some", "functions": 3, "tasks": {"work": {"bound": 10, "path": ["work"]}},
+            "board": "some",
+            "functions": 3,
+            "tasks": {"work": {"bound": 10, "path": ["work"]}},
             "stacks": {"main": {"size": 100, "bound": 101, "path": ["reset", "x.c:work"]}},
-        }  # fmt: skip
+        }
         with contextlib.redirect_stdout(io.StringIO()) as out:
             self.assertEqual(stack.conclude(report, self.root), 1)
         self.assertIn("101 of 100 bytes: reset > work", out.getvalue())
@@ -376,9 +398,12 @@ class FilesTest(unittest.TestCase):
 
     def test_a_painted_stack_below_and_above_the_bound(self) -> None:
         report = {
-            "board": "some", "functions": 3, "tasks": {}, "painted": 92,
+            "board": "some",
+            "functions": 3,
+            "tasks": {},
+            "painted": 92,
             "stacks": {"main": {"size": 500, "bound": 200, "path": ["reset"]}},
-        }  # fmt: skip
+        }
         with contextlib.redirect_stdout(io.StringIO()) as out:
             self.assertEqual(stack.conclude(report, self.root), 0)
             self.assertEqual(stack.conclude({**report, "painted": 93}, self.root), 1)
@@ -401,19 +426,29 @@ class FilesTest(unittest.TestCase):
 
     def test_a_stack_that_was_not_compared_is_told(self) -> None:
         report = {
-            "board": "some", "functions": 3, "tasks": {}, "painted": None,
+            "board": "some",
+            "functions": 3,
+            "tasks": {},
+            "painted": None,
             "stacks": {"main": {"size": 500, "bound": 200, "path": ["reset"]}},
-        }  # fmt: skip
+        }
         with contextlib.redirect_stdout(io.StringIO()) as out:
             self.assertEqual(stack.conclude(report, self.root), 0)
         self.assertIn("not compared", out.getvalue())
 
     def test_sizes_of_the_stacks(self) -> None:
-        places = {"keel_stack_bottom": 0x400, "keel_stack_top": 0x4400,
-                  "keel_fault_stack_top": 0x4800}  # fmt: skip
-        contents = Contents(0, symbols=[
-            Symbol(name, 0x2000_0000 + at, 0, False, ".stack", "") for name, at in places.items()
-        ])  # fmt: skip
+        places = {
+            "keel_stack_bottom": 0x400,
+            "keel_stack_top": 0x4400,
+            "keel_fault_stack_top": 0x4800,
+        }
+        contents = Contents(
+            0,
+            symbols=[
+                Symbol(name, 0x2000_0000 + at, 0, False, ".stack", "")
+                for name, at in places.items()
+            ],
+        )
         self.assertEqual(stack.stack_sizes(contents), {"main": 0x4000, "fault": 0x400})
         with self.assertRaisesRegex(ToolError, "no symbol keel_stack_top"):
             stack.stack_sizes(Contents(0))

@@ -62,16 +62,25 @@ class Proofs(Copied):
 
     def test_who_tells_what_others_found_judges_nothing(self) -> None:
         for name in (
-            "prove/report.py", "prove/explain.py", "prove/times.py", "prove/proof_run.py",
-            "prove/driver.py", "mutate/mutation.py", "base/shared_results.py", "audit/unused.py",
-            "audit/determined.py", "audit/completeness.py",
+            "prove/report.py",
+            "prove/explain.py",
+            "prove/times.py",
+            "prove/proof_run.py",
+            "prove/driver.py",
+            "mutate/mutation.py",
+            "base/shared_results.py",
+            "audit/unused.py",
+            "audit/determined.py",
+            "audit/completeness.py",
         ):
             self.assertEqual(self.voided(name), [], name)
 
     def test_every_tool_counts_for_the_engines_that_may_start_it(self) -> None:
         stamp = dict.fromkeys(Toolchain().versions("prove"), "1")
-        used = {name: [engine for engine in ENGINES if name in stamps.started(engine, stamp)]
-                for name in stamp}  # fmt: skip
+        used = {
+            name: [engine for engine in ENGINES if name in stamps.started(engine, stamp)]
+            for name in stamp
+        }
         self.assertEqual(used["frama-c"], ["wp"])
         self.assertEqual(used["alt-ergo"], ["wp"])
         self.assertEqual(used["z3"], ["wp", "cbmc"])
@@ -96,7 +105,9 @@ class Mutants(Copied):
 
     def test_another_judge_may_say_something_else(self) -> None:
         for name in (
-            "engines/cbmc.py", "judge/cbmc_answers.py", "mutate/mutation.py",
+            "engines/cbmc.py",
+            "judge/cbmc_answers.py",
+            "mutate/mutation.py",
             "mutate/small_harnesses.py",
         ):
             self.assertEqual(self.voided(name), ["cbmc"], name)
@@ -104,6 +115,11 @@ class Mutants(Copied):
             self.assertEqual(self.voided(name), ["wp"], name)
 
     def test_who_finds_makes_or_prints_judges_nothing(self) -> None:
-        for name in ("c/source.py", "mutate/operators.py", "mutate/slips.py", "prove/report.py",
-                     "audit/clauses.py"):
+        for name in (
+            "c/source.py",
+            "mutate/operators.py",
+            "mutate/slips.py",
+            "prove/report.py",
+            "audit/clauses.py",
+        ):
             self.assertEqual(self.voided(name), [], name)

@@ -36,9 +36,14 @@ def functions(name: str, count: int) -> list[dict[str, Any]]:
 
 
 def unit(
-    name: str, determined: int, goals: int, harnesses: int, properties: int, bodies: int,
+    name: str,
+    determined: int,
+    goals: int,
+    harnesses: int,
+    properties: int,
+    bodies: int,
     bounds: int = 0,
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """A unit of the report of which everything is proved."""
     return {
         "determined": functions(name, determined),
@@ -51,7 +56,8 @@ def unit(
             "harnesses": {str(number): {"sound": True} for number in range(harnesses)},
         },
         "gappa": {
-            "goals": bounds, "proved": bounds,
+            "goals": bounds,
+            "proved": bounds,
             "negative": {"bounds": min(bounds, 1), "refused": min(bounds, 1)},
         },
     }

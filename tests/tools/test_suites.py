@@ -160,8 +160,11 @@ class SideBySide(unittest.TestCase):
 
         found, output = self.run_all([Suite("wrong", (), wrong), Suite("good", (), passed)])
         self.assertEqual(len(found["wrong"].failures), 1)
-        self.assertRegex(output, r"wrong: an error of the runner\nTraceback(.|\n)*test_suites\.py"
-                                 r"(.|\n)*KeyError: 'no such key'")  # fmt: skip
+        self.assertRegex(
+            output,
+            r"wrong: an error of the runner\nTraceback(.|\n)*test_suites\.py"
+            r"(.|\n)*KeyError: 'no such key'",
+        )
         self.assertEqual(found["good"].passed, 1)
 
     def test_tools_are_there_before_any_suite_begins(self) -> None:
@@ -266,10 +269,18 @@ class Interruption(unittest.TestCase):
     def interrupt(self, number: signal.Signals) -> None:
         folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
         mark = str(1_000_000 + os.getpid())  # Seconds, longer than any test.
-        script = INTERRUPTED.format(tools=str(ROOT / "tools"), folder=str(folder), mark=mark,
-                                    tests=str(Path(__file__).resolve().parent))  # fmt: skip
-        process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, text=True)  # fmt: skip
+        script = INTERRUPTED.format(
+            tools=str(ROOT / "tools"),
+            folder=str(folder),
+            mark=mark,
+            tests=str(Path(__file__).resolve().parent),
+        )
+        process = subprocess.Popen(
+            [sys.executable, "-c", script],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
         wanted = [f"{mark}.1", f"{mark}.2"]
         self.assertTrue(wait_for(lambda: alive(mark) == wanted), alive(mark))
         process.send_signal(number)
@@ -303,8 +314,9 @@ class File(unittest.TestCase):
         needs = read_needs()
         names = {suite.name for suite in every_suite(needs)}
         self.assertEqual([need.name for need in needs.suite if need.name not in names], [])
-        self.assertEqual([need.name for need in needs.suite
-                          if not need.groups and not need.seconds], [])  # fmt: skip
+        self.assertEqual(
+            [need.name for need in needs.suite if not need.groups and not need.seconds], []
+        )
 
 
 def every_suite(needs: Needs) -> list[Suite]:
@@ -324,13 +336,23 @@ def lacking(needs: Needs) -> list[str]:
     tools = {tool for group in named for tool in lock.groups[group]}
     installed = {group for group in lock.groups if tools.issuperset(lock.groups[group])}
     excused = {group for entry in needs.absent for group in entry.groups}
-    files = [path for folder in FOLDERS[1:] for path in sorted(folder.glob("test_*.py"))
-             if path.name not in APART]  # fmt: skip
+    files = [
+        path
+        for folder in FOLDERS[1:]
+        for path in sorted(folder.glob("test_*.py"))
+        if path.name not in APART
+    ]
     users = {path: file for file in files for path in closure(file, FOLDERS)}
-    wanted = {groups: f"{file.name}, by {path.name}" for path, file in sorted(users.items())
-              for groups in asked(path, lock)}  # fmt: skip
-    told = [f"{' or '.join(groups)}: {who}" for groups, who in wanted.items()
-            if not installed & set(groups) and not excused >= set(groups)]  # fmt: skip
+    wanted = {
+        groups: f"{file.name}, by {path.name}"
+        for path, file in sorted(users.items())
+        for groups in asked(path, lock)
+    }
+    told = [
+        f"{' or '.join(groups)}: {who}"
+        for groups, who in wanted.items()
+        if not installed & set(groups) and not excused >= set(groups)
+    ]
     needless = excused & installed | excused - {group for groups in wanted for group in groups}
     return sorted([*told, *(f"{group}: needs no excuse" for group in needless)])
 
@@ -344,8 +366,10 @@ class Installed(unittest.TestCase):
     def test_one_that_is_not_installed_is_named_with_who_asks(self) -> None:
         needs = read_needs()
         left = [need for need in needs.suite if need.name != "tools/contracts_run"]
-        self.assertEqual(lacking(needs.model_copy(update={"suite": left})),
-                         ["contracts-run: test_contracts_run.py, by contracts_run.py"])  # fmt: skip
+        self.assertEqual(
+            lacking(needs.model_copy(update={"suite": left})),
+            ["contracts-run: test_contracts_run.py, by contracts_run.py"],
+        )
 
     def test_one_without_an_excuse_and_one_with_a_needless_one_are_named(self) -> None:
         needs = read_needs()

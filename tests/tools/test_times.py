@@ -123,8 +123,9 @@ class Late(unittest.TestCase):
         now = 0.0
         heard: list[float] = []
         job = Job("box", "cbmc", "h", lambda: "key", lambda _room: {})
-        running = Running(lambda _job, seconds: heard.append(seconds), lambda _: expected,
-                          lambda: now)  # fmt: skip
+        running = Running(
+            lambda _job, seconds: heard.append(seconds), lambda _: expected, lambda: now
+        )
         with running.now(job):
             for now in during:
                 running.look()

@@ -92,16 +92,28 @@ class Sandbox(unittest.TestCase):
 def system(name: str, at_least: str = "2.0", below: str = "3") -> dict[str, object]:
     """The entry of a tool that prints its version."""
     return {
-        "kind": "system", "commands": [name], "probe": [name, "--version"],
-        "version": r"(\d+\.\d+)", "at_least": at_least, "below": below, "packages": [f"{name}-deb"],
-    }  # fmt: skip
+        "kind": "system",
+        "commands": [name],
+        "probe": [name, "--version"],
+        "version": r"(\d+\.\d+)",
+        "at_least": at_least,
+        "below": below,
+        "packages": [f"{name}-deb"],
+    }
 
 
 DEB: dict[str, object] = {
-    "kind": "deb", "commands": ["prover"], "probe": ["prover", "--version"],
-    "version": r"(\d+\.\d+)", "at_least": "6.6", "below": "7", "suite": "trixie",
-    "package": "prover", "pin": "6.6-4", "sha256": "0" * 64,
-}  # fmt: skip
+    "kind": "deb",
+    "commands": ["prover"],
+    "probe": ["prover", "--version"],
+    "version": r"(\d+\.\d+)",
+    "at_least": "6.6",
+    "below": "7",
+    "suite": "trixie",
+    "package": "prover",
+    "pin": "6.6-4",
+    "sha256": "0" * 64,
+}
 
 
 class FindingTools(Sandbox):
@@ -217,10 +229,12 @@ class Refusals(Sandbox):
         self.assertTrue(any("frama-c: wanted 25" in line for line in others))
 
     def test_a_wrong_name_is_told_in_one_line_with_the_nearest(self) -> None:
-        for words, wanted in ((["ensure", "prov"], "there is no group prov; did you mean prove?"),
-                              (["path", "cmbc"], "there is no tool cmbc; did you mean cbmc?"),
-                              (["version"], "did you mean versions?"),
-                              (["versions", "--jsn"], "--jsn; did you mean --json?")):  # fmt: skip
+        for words, wanted in (
+            (["ensure", "prov"], "there is no group prov; did you mean prove?"),
+            (["path", "cmbc"], "there is no tool cmbc; did you mean cbmc?"),
+            (["version"], "did you mean versions?"),
+            (["versions", "--jsn"], "--jsn; did you mean --json?"),
+        ):
             with self.subTest(words), contextlib.redirect_stderr(io.StringIO()) as errors:
                 status: object = 2
                 try:
@@ -279,7 +293,7 @@ class Unpacking(Sandbox):
         found = tools.versions("g")["prover"]
         self.assertEqual(found.origin, "cache")
         [starter] = tools.command("prover")
-        self.assertIn("before.py\" \"$root/usr/bin/prover\"", Path(starter).read_text())
+        self.assertIn('before.py" "$root/usr/bin/prover"', Path(starter).read_text())
         # It is what stands before it that identifies it: of the program there is the manifest.
         self.assertEqual(found.sha256, sha256_of(before))
         self.assertEqual(found.parts[0]["name"], "prover")
@@ -316,8 +330,17 @@ class Unpacking(Sandbox):
         def fill(tree: Tree) -> None:
             python_packages.install(tree, [str(pip)])
 
-        spec = Spec("z-packages", "packages", group="base", file="z/version", pin="1",
-                    sha256="0" * 64, version=r"(\d\.\d)", at_least="1", below="2")  # fmt: skip
+        spec = Spec(
+            "z-packages",
+            "packages",
+            group="base",
+            file="z/version",
+            pin="1",
+            sha256="0" * 64,
+            version=r"(\d\.\d)",
+            at_least="1",
+            below="2",
+        )
         found = self.store.unpack(spec, fill, Finder(self.cache))
         self.assertEqual((found.version, found.origin), ("1.5", "cache"))
         self.assertIn(sys.implementation.cache_tag, found.commands["z-packages"])
@@ -373,8 +396,12 @@ class Crates(Sandbox):
         self.fetched.parent.mkdir(parents=True)
         self.archive = self.folder / "regs-1.2.0.crate"
         with tarfile.open(self.archive, "w:gz") as tar:
-            for name, text in (("Cargo.toml", 'version = "1.2.0"'), ("src/a/x.rs", "a"),
-                               ("src/b/y.rs", "b"), ("../out.rs", "outside")):  # fmt: skip
+            for name, text in (
+                ("Cargo.toml", 'version = "1.2.0"'),
+                ("src/a/x.rs", "a"),
+                ("src/b/y.rs", "b"),
+                ("../out.rs", "outside"),
+            ):
                 data = io.BytesIO(text.encode())
                 member = tarfile.TarInfo(f"regs-1.2.0/{name}")
                 member.size = len(text)
@@ -384,10 +411,16 @@ class Crates(Sandbox):
     def crate(self, sha256: str = "", keep: str = "src/a/") -> Lock:
         cargo = {**system("cargo", "1.70", "2"), "version": r"cargo (\d+\.\d+)"}
         regs: dict[str, object] = {
-            "kind": "crate", "file": "Cargo.toml", "version": r'version = "(\d+\.\d+)',
-            "at_least": "1.2", "below": "1.3", "package": "regs", "pin": "1.2.0",
-            "sha256": sha256 or sha256_of(self.archive), "keep": [keep],
-        }  # fmt: skip
+            "kind": "crate",
+            "file": "Cargo.toml",
+            "version": r'version = "(\d+\.\d+)',
+            "at_least": "1.2",
+            "below": "1.3",
+            "package": "regs",
+            "pin": "1.2.0",
+            "sha256": sha256 or sha256_of(self.archive),
+            "keep": [keep],
+        }
         return self.lock(cargo=cargo, regs=regs)
 
     def test_the_wanted_parts_are_kept(self) -> None:
@@ -554,8 +587,11 @@ class TwoClones(Sandbox):
         known = r'name = "Alt-Ergo"\nversion = "2.5"\n'
         detect = f"""[ "$1" != config ] || printf '{known}' > "$WHY3CONFIG\""""
         self.script("why3", f"echo why3 2.5; {detect}")
-        tools = {"alt-ergo": system("alt-ergo"), "why3": system("why3"),
-                 "why3-config": {"kind": "why3-config", "provers": ["Alt-Ergo"]}}  # fmt: skip
+        tools = {
+            "alt-ergo": system("alt-ergo"),
+            "why3": system("why3"),
+            "why3-config": {"kind": "why3-config", "provers": ["Alt-Ergo"]},
+        }
         lock = self.lock(**tools)
         first = Toolchain(self.cache, lock)
         first.ensure("g", say=quiet)
@@ -565,8 +601,9 @@ class TwoClones(Sandbox):
         Toolchain(self.cache, lock).ensure("g", say=quiet)
         self.assertEqual(self.ran().count("why3"), 4)
         self.assertIn("WHY3CONFIG", first.environment())
-        self.assertEqual([path.name for path in (self.cache / "why3").rglob("*.conf")],
-                         ["why3.conf"])  # fmt: skip
+        self.assertEqual(
+            [path.name for path in (self.cache / "why3").rglob("*.conf")], ["why3.conf"]
+        )
 
 
 class TheLockFile(Sandbox):
@@ -607,13 +644,17 @@ class TheLockFile(Sandbox):
         return str(refused.exception)
 
     def test_a_group_that_is_not_there_or_not_pinned_is_refused(self) -> None:
-        self.assertEqual(self.group_error("[dependency-groups]\nb = []\n", ""),
-                         "pyproject.toml: there is no group a")  # fmt: skip
+        self.assertEqual(
+            self.group_error("[dependency-groups]\nb = []\n", ""),
+            "pyproject.toml: there is no group a",
+        )
 
     def test_a_package_without_a_digest_is_refused(self) -> None:
         text = '[dependency-groups]\na = ["z==1"]\n'
-        self.assertEqual(self.group_error(text, "z==2 \\\n    --hash=sha256:" + "0" * 64 + "\n"),
-                         "packages.lock: z==1 of group a has no SHA-256")  # fmt: skip
+        self.assertEqual(
+            self.group_error(text, "z==2 \\\n    --hash=sha256:" + "0" * 64 + "\n"),
+            "packages.lock: z==1 of group a has no SHA-256",
+        )
 
     def test_a_package_has_one_version_in_all_files_of_one_program(self) -> None:
         lock = Lock.read()
@@ -626,6 +667,11 @@ class TheLockFile(Sandbox):
             self.assertIn("pytest", seen)
 
     def test_no_registry_is_named(self) -> None:
-        for path in (LOCK_FILE, groups.HASHES, groups.PROJECT, *Path(toolchain.__file__).parent.glob("*.py")):
+        for path in (
+            LOCK_FILE,
+            groups.HASHES,
+            groups.PROJECT,
+            *Path(toolchain.__file__).parent.glob("*.py"),
+        ):
             hosts = re.findall(r"\b[a-z0-9-]+\.(?:org|com|net|io)\b|https?:", path.read_text())
             self.assertEqual(hosts, [], path.name)

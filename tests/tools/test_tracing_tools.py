@@ -37,38 +37,56 @@ class LobsterTest(TracedProject):
     def test_a_failing_test_covers_nothing(self) -> None:
         suites = self.reports["test/report.json"]["suites"]
         suites["unit/widget"]["tests"]["it_loops"] = "failed"
-        self.assertEqual(self.complaints(), [
-            "LOBSTER: req WID-002: missing reference to Proofs or Tests",
-            "LOBSTER: test unit/widget/it_loops: its verdict is: failed; missing up reference",
-        ])  # fmt: skip
+        self.assertEqual(
+            self.complaints(),
+            [
+                "LOBSTER: req WID-002: missing reference to Proofs or Tests",
+                "LOBSTER: test unit/widget/it_loops: its verdict is: failed; missing up reference",
+            ],
+        )
 
     def test_a_goal_that_is_not_proved(self) -> None:
         self.proofs["wp"]["goal_list"][0]["status"] = "Timeout"
-        self.assertEqual(self.complaints(), [
-            "LOBSTER: goal widget/keel_widget_turn_ensures_WID_001_turns: its verdict is: Timeout;"
-            " missing up reference"])  # fmt: skip
+        self.assertEqual(
+            self.complaints(),
+            [
+                "LOBSTER: goal widget/keel_widget_turn_ensures_WID_001_turns: its verdict is: Timeout;"
+                " missing up reference"
+            ],
+        )
 
     def test_a_requirement_without_a_parent(self) -> None:
         self.change(LOW, "<<<\nRELATIONS:\n- TYPE: Parent\n  VALUE: HLR-001\n", "<<<\n")
-        self.assertEqual(self.complaints(), [
-            "LOBSTER: req HLR-001: missing reference to Low-level requirements or Tests",
-            "LOBSTER: req WID-001: missing up reference"])  # fmt: skip
+        self.assertEqual(
+            self.complaints(),
+            [
+                "LOBSTER: req HLR-001: missing reference to Low-level requirements or Tests",
+                "LOBSTER: req WID-001: missing up reference",
+            ],
+        )
 
     def test_a_parent_that_does_not_exist(self) -> None:
         self.change(LOW, "VALUE: HLR-001", "VALUE: HLR-001\n- TYPE: Parent\n  VALUE: HLR-009")
-        self.assertEqual(self.complaints(), [
-            "LOBSTER: req WID-001: unknown tracing target req HLR-009"])  # fmt: skip
+        self.assertEqual(
+            self.complaints(), ["LOBSTER: req WID-001: unknown tracing target req HLR-009"]
+        )
 
     def test_a_function_without_a_requirement(self) -> None:
         self.write("src/rtos/widget.c", small.SOURCE + "\nvoid keel_widget_stop(void)\n{\n}\n")
-        self.assertEqual(self.complaints(), [
-            "LOBSTER: c src/rtos/widget.c:keel_widget_stop: missing up reference"])  # fmt: skip
+        self.assertEqual(
+            self.complaints(),
+            ["LOBSTER: c src/rtos/widget.c:keel_widget_stop: missing up reference"],
+        )
 
     def test_a_goal_of_a_requirement_that_does_not_exist(self) -> None:
         self.proofs["wp"]["goal_list"][0]["name"] = "keel_widget_turn_ensures_WID_009_turns"
-        self.assertEqual(self.complaints(), [
-            "LOBSTER: goal widget/keel_widget_turn_ensures_WID_009_turns: unknown tracing target"
-            " req WID-009; missing up reference"])  # fmt: skip
+        self.assertEqual(
+            self.complaints(),
+            [
+                "LOBSTER: goal widget/keel_widget_turn_ensures_WID_009_turns: unknown tracing target"
+                " req WID-009; missing up reference"
+            ],
+        )
 
 
 class StrictDocTest(TracedProject):

@@ -49,17 +49,22 @@ class TrialCase(TreeTest):
         linking = "// sources: src/rtos/box.c\n"
         texts = {
             "keel_box_put__slow_harness": harness_text(
-                "keel_box_put__slow_harness", "keel_box_put"),
+                "keel_box_put__slow_harness", "keel_box_put"
+            ),
             "keel_box_put__eq_harness": harness_text(
-                "keel_box_put__eq_harness", "keel_box_put model_box_put"),
+                "keel_box_put__eq_harness", "keel_box_put model_box_put"
+            ),
             "keel_box_get__eq_harness": harness_text(
-                "keel_box_get__eq_harness", "helper keel_box_put model_box_get"),
+                "keel_box_get__eq_harness", "helper keel_box_put model_box_get"
+            ),
             "keel_box_get_harness": harness_text("keel_box_get_harness", "keel_box_get"),
             "keel_box_far_harness": harness_text("keel_box_far_harness", "keel_box_far").replace(
-                "keel_box_put(&box", "keel_box_far(&box"),
+                "keel_box_put(&box", "keel_box_far(&box"
+            ),
             "keel_box_not_harness": harness_text(
-                "keel_box_not_harness", "keel_box_not", "// replaces: keel_box_put\n"),
-        }  # fmt: skip
+                "keel_box_not_harness", "keel_box_not", "// replaces: keel_box_put\n"
+            ),
+        }
         for name, text in texts.items():
             (folder / f"{name}.c").write_text(text, encoding="utf-8")
         other = self.root / "proofs/sail/keel_sail_set_harness.c"
@@ -70,42 +75,63 @@ class TrialCase(TreeTest):
         (self.root / "specs/model").mkdir(parents=True)
         (self.root / "specs/model/box.h").write_text("/* model */\n")
         times = {
-            "box/cbmc/keel_box_put_harness": 5, "box/cbmc/keel_box_put__slow_harness": 90,
-            "box/cbmc/keel_box_put__eq_harness": 30, "sail/cbmc/keel_sail_set_harness": 1,
-        }  # fmt: skip
+            "box/cbmc/keel_box_put_harness": 5,
+            "box/cbmc/keel_box_put__slow_harness": 90,
+            "box/cbmc/keel_box_put__eq_harness": 30,
+            "sail/cbmc/keel_sail_set_harness": 1,
+        }
         (self.root / "times.json").write_text(json.dumps(times))
         self.unit = find_units(self.root)["box"]
         self.trial = self.make_trial()
 
     def make_trial(
-        self, stamp: str = "1", patient: bool = True, driver: str = "d",
-        wp: str = "1", accepted: Collection[Identity] = (),
-    ) -> Trial:  # fmt: skip
+        self,
+        stamp: str = "1",
+        patient: bool = True,
+        driver: str = "d",
+        wp: str = "1",
+        accepted: Collection[Identity] = (),
+    ) -> Trial:
         scratch = Path(tempfile.mkdtemp(dir=self.root.parent, prefix="scratch"))
         self.addCleanup(lambda: __import__("shutil").rmtree(scratch, ignore_errors=True))
         tools = Tools(
             (), ("goto-cc",), ("cbmc",), ("gcc",), {}, scratch, scratch / "a", scratch / "v"
         )
         return Trial(
-            self.unit, tools, Trees(self.root, scratch, 1), ("cbmc", "wp"), False,
+            self.unit,
+            tools,
+            Trees(self.root, scratch, 1),
+            ("cbmc", "wp"),
+            False,
             Cache(self.root / "cache"),
-            {"tool": "t", BY_CBMC: stamp, BY_WP: wp, "driver": driver}, Exceptions(),
-            Times(self.root / "times.json"), patient, accepted=accepted,
-        )  # fmt: skip
+            {"tool": "t", BY_CBMC: stamp, BY_WP: wp, "driver": driver},
+            Exceptions(),
+            Times(self.root / "times.json"),
+            patient,
+            accepted=accepted,
+        )
 
     def mutant(self, text: str = "*box = value;") -> Mutant:
         start = SOURCE.index(text)
-        return Mutant(self.unit.source, "keel_box_put", "x", start, start + len(text), ";", 15,
-                      text, ";")  # fmt: skip
+        return Mutant(
+            self.unit.source, "keel_box_put", "x", start, start + len(text), ";", 15, text, ";"
+        )
 
 
 class Order(TrialCase):
     def test_equality_first_then_what_covers_then_what_links_and_the_fastest_of_each(self) -> None:
-        names = [
-            one.name.removesuffix("_harness") for one in self.trial._ranked(self.mutant())
-        ]
-        self.assertEqual(names, ["keel_box_put__eq", "keel_box_get__eq", "keel_sail_set",
-                                 "keel_box_put", "keel_box_put__slow", "keel_box_get"])  # fmt: skip
+        names = [one.name.removesuffix("_harness") for one in self.trial._ranked(self.mutant())]
+        self.assertEqual(
+            names,
+            [
+                "keel_box_put__eq",
+                "keel_box_get__eq",
+                "keel_sail_set",
+                "keel_box_put",
+                "keel_box_put__slow",
+                "keel_box_get",
+            ],
+        )
 
     def test_a_tree_has_the_model(self) -> None:
         with self.trial._trees.with_mutant(self.mutant(), self.root) as tree:
@@ -130,7 +156,6 @@ class Order(TrialCase):
         self.assertEqual((first, last), (NO_ANSWER, NO_ANSWER))
         self.assertEqual(begun, 5)
         self.assertEqual(asked[begun:], ["keel_box_put__slow_harness"])
-
 
     def test_a_limit_is_of_processor_time(self) -> None:
         runner = jobs.Runner({"PATH": os.environ["PATH"]}, self.root)
@@ -272,8 +297,11 @@ class Kept(TrialCase):
                 self.assertIn("STALE", standing("box", path, digest(self.make_trial())))
             file.write_text(text)
         self.assertEqual(standing("box", path, digest(self.make_trial(driver="e"))), line)
-        for other in (digest(self.make_trial(stamp="2")), self.trial.digest_of([], ""),
-                      self.trial.digest_of(made, "[[equivalent]]")):  # fmt: skip
+        for other in (
+            digest(self.make_trial(stamp="2")),
+            self.trial.digest_of([], ""),
+            self.trial.digest_of(made, "[[equivalent]]"),
+        ):
             self.assertIn("STALE", standing("box", path, other))
         path.write_text(path.read_text()[:-20])
         self.assertEqual(standing("box", path, now), "box          no result")

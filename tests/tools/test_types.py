@@ -24,13 +24,25 @@ class TypesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         tools = Toolchain()
-        tools.ensure("types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack",
-                     "schedule")  # fmt: skip
-        groups = ("types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack",
-                  "schedule")  # fmt: skip
+        tools.ensure(
+            "types", "fly-tests", "evidence", "trace", "c-syntax", "model", "stack", "schedule"
+        )
+        groups = (
+            "types",
+            "fly-tests",
+            "evidence",
+            "trace",
+            "c-syntax",
+            "model",
+            "stack",
+            "schedule",
+        )
         names = dict.fromkeys(name for group in groups for name in tools.lock.groups[group])
-        places = [tools.command(name)[0] for name in names
-                  if tools.lock.tools[name].kind in ("packages", "wheel")]  # fmt: skip
+        places = [
+            tools.command(name)[0]
+            for name in names
+            if tools.lock.tools[name].kind in ("packages", "wheel")
+        ]
         cls.variables = {**os.environ, "PYTHONPATH": os.pathsep.join(places)}
         cls.cache = cls.enterClassContext(tempfile.TemporaryDirectory(prefix="keel-test-"))
 

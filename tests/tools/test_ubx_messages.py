@@ -21,9 +21,22 @@ from keel.install import Toolchain
 ROOT = Path(__file__).resolve().parents[2]
 
 GAP_US, BYTE_US, SILENT_US = 20000, 87, 80000
-FIELDS = ("tow_ms", "longitude", "latitude", "height_mm", "accuracy_mm", "height_accuracy", "north",
-          "east", "down", "speed_accuracy", "type", "satellites", "is_ok",
-          "is_invalid")  # fmt: skip
+FIELDS = (
+    "tow_ms",
+    "longitude",
+    "latitude",
+    "height_mm",
+    "accuracy_mm",
+    "height_accuracy",
+    "north",
+    "east",
+    "down",
+    "speed_accuracy",
+    "type",
+    "satellites",
+    "is_ok",
+    "is_invalid",
+)
 COUNTS = ("bytes", "fixes", "acks", "naks", "others", "checksums", "cut")
 HEADER = bytes.fromhex("b56201075c00")
 HEADER_14 = bytes.fromhex("b56201075400")
@@ -73,8 +86,20 @@ class Messages(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
         shim.write_text(SHIM)
-        output_of(["gcc", "-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT / 'include'}",
-                   shim, ROOT / "src/middleware/ubx.c", "-o", built])  # fmt: skip
+        output_of(
+            [
+                "gcc",
+                "-std=c99",
+                "-O1",
+                "-shared",
+                "-fPIC",
+                f"-I{ROOT / 'include'}",
+                shim,
+                ROOT / "src/middleware/ubx.c",
+                "-o",
+                built,
+            ]
+        )
         cls.library = ctypes.CDLL(str(built))
         for name in FIELDS:
             getattr(cls.library, name).restype = ctypes.c_longlong
@@ -98,24 +123,54 @@ class Messages(unittest.TestCase):
         """What a fix is to say, and its bytes: pyubx2's."""
         whole, natural = self.random.randrange, lambda: self.random.randrange(1 << 31)
         said = {
-            "tow_ms": whole(604800000), "longitude": whole(-1800000000, 1800000000),
-            "latitude": whole(-900000000, 900000000), "height_mm": whole(-(1 << 31), 1 << 31),
-            "accuracy_mm": natural(), "height_accuracy": natural(),
-            "north": whole(-(1 << 31), 1 << 31), "east": whole(-500000, 500000),
-            "down": whole(-500000, 500000), "speed_accuracy": natural(), "type": whole(6),
-            "satellites": whole(100), "is_ok": whole(2), "is_invalid": whole(2),
-        }  # fmt: skip
+            "tow_ms": whole(604800000),
+            "longitude": whole(-1800000000, 1800000000),
+            "latitude": whole(-900000000, 900000000),
+            "height_mm": whole(-(1 << 31), 1 << 31),
+            "accuracy_mm": natural(),
+            "height_accuracy": natural(),
+            "north": whole(-(1 << 31), 1 << 31),
+            "east": whole(-500000, 500000),
+            "down": whole(-500000, 500000),
+            "speed_accuracy": natural(),
+            "type": whole(6),
+            "satellites": whole(100),
+            "is_ok": whole(2),
+            "is_invalid": whole(2),
+        }
         message = self.pyubx2.UBXMessage(
-            "NAV", "NAV-PVT", self.pyubx2.GET, iTOW=said["tow_ms"], year=2026, month=whole(1, 13),
-            day=whole(1, 29), hour=whole(24), min=whole(60), second=whole(60), validDate=1,
-            tAcc=natural(), nano=whole(-1000000, 1000000), fixType=said["type"],
-            gnssFixOk=said["is_ok"], diffSoln=whole(2), carrSoln=whole(3),
-            numSV=said["satellites"], lon=said["longitude"] * 1e-7, lat=said["latitude"] * 1e-7,
-            height=natural(), hMSL=said["height_mm"], hAcc=said["accuracy_mm"],
-            vAcc=said["height_accuracy"], velN=said["north"], velE=said["east"],
-            velD=said["down"], gSpeed=natural(), sAcc=said["speed_accuracy"],
-            invalidLlh=said["is_invalid"], lastCorrectionAge=whole(13),
-        )  # fmt: skip
+            "NAV",
+            "NAV-PVT",
+            self.pyubx2.GET,
+            iTOW=said["tow_ms"],
+            year=2026,
+            month=whole(1, 13),
+            day=whole(1, 29),
+            hour=whole(24),
+            min=whole(60),
+            second=whole(60),
+            validDate=1,
+            tAcc=natural(),
+            nano=whole(-1000000, 1000000),
+            fixType=said["type"],
+            gnssFixOk=said["is_ok"],
+            diffSoln=whole(2),
+            carrSoln=whole(3),
+            numSV=said["satellites"],
+            lon=said["longitude"] * 1e-7,
+            lat=said["latitude"] * 1e-7,
+            height=natural(),
+            hMSL=said["height_mm"],
+            hAcc=said["accuracy_mm"],
+            vAcc=said["height_accuracy"],
+            velN=said["north"],
+            velE=said["east"],
+            velD=said["down"],
+            gSpeed=natural(),
+            sAcc=said["speed_accuracy"],
+            invalidLlh=said["is_invalid"],
+            lastCorrectionAge=whole(13),
+        )
         return said, message.serialize()
 
     def test_every_field_is_what_pyubx2_encoded(self) -> None:
@@ -139,10 +194,23 @@ class Messages(unittest.TestCase):
             parsed = self.pyubx2.UBXReader.parse(data)
             self.assertEqual(
                 list(self.says().values()),
-                [parsed.iTOW, round(1e7 * parsed.lon), round(1e7 * parsed.lat), parsed.hMSL,
-                 parsed.hAcc, parsed.vAcc, parsed.velN, parsed.velE, parsed.velD, parsed.sAcc,
-                 parsed.fixType, parsed.numSV, parsed.gnssFixOk, parsed.invalidLlh],
-            )  # fmt: skip
+                [
+                    parsed.iTOW,
+                    round(1e7 * parsed.lon),
+                    round(1e7 * parsed.lat),
+                    parsed.hMSL,
+                    parsed.hAcc,
+                    parsed.vAcc,
+                    parsed.velN,
+                    parsed.velE,
+                    parsed.velD,
+                    parsed.sAcc,
+                    parsed.fixType,
+                    parsed.numSV,
+                    parsed.gnssFixOk,
+                    parsed.invalidLlh,
+                ],
+            )
 
     def test_other_protocols_say_the_same(self) -> None:
         """84 bytes of an u-blox 7, and more than today's: as pyubx2 encodes the part they share."""
@@ -169,8 +237,9 @@ class Messages(unittest.TestCase):
                 pieces.append(self.any_fix()[1])
             elif kind == 2:
                 payload = self.random.randbytes(self.random.randrange(400))
-                pieces.append(self.pyubx2.UBXMessage(
-                    0x0A, 0x04, self.pyubx2.GET, payload=payload).serialize())  # fmt: skip
+                pieces.append(
+                    self.pyubx2.UBXMessage(0x0A, 0x04, self.pyubx2.GET, payload=payload).serialize()
+                )
             elif kind == 3:
                 pieces.append(b"$GNGGA,120000.00,,,,,0,00,99.99,,,,,,*7E\r\n")
             else:
@@ -249,9 +318,12 @@ class Messages(unittest.TestCase):
         return bytes(self.library.written(at) for at in range(self.library.size()))
 
     def test_items(self) -> None:
-        items = (("CFG_UART1_BAUDRATE", 0x40520001, 115200), ("CFG_RATE_MEAS", 0x30210001, 100),
-                 ("CFG_MSGOUT_UBX_NAV_PVT_UART1", 0x20910007, 1),
-                 ("CFG_UART1OUTPROT_NMEA", 0x10740002, 0))  # fmt: skip
+        items = (
+            ("CFG_UART1_BAUDRATE", 0x40520001, 115200),
+            ("CFG_RATE_MEAS", 0x30210001, 100),
+            ("CFG_MSGOUT_UBX_NAV_PVT_UART1", 0x20910007, 1),
+            ("CFG_UART1OUTPROT_NMEA", 0x10740002, 0),
+        )
         for name, key, value in items:
             self.assertEqual(self.pyubx2.UBX_CONFIG_DATABASE[name][0], key)
             self.assertEqual(self.library.value(key, value), 0)
@@ -277,12 +349,23 @@ class Messages(unittest.TestCase):
         expected = message("CFG", "CFG-RATE", set_it, measRate=200, navRate=1, timeRef=1)
         self.assertEqual(self.written(), expected.serialize())
         self.library.port(38400)
-        expected = message("CFG", "CFG-PRT", set_it, portID=1, charLen=3, parity=4, nStopBits=0,
-                           baudRate=38400, inUBX=1, outUBX=1)  # fmt: skip
+        expected = message(
+            "CFG",
+            "CFG-PRT",
+            set_it,
+            portID=1,
+            charLen=3,
+            parity=4,
+            nStopBits=0,
+            baudRate=38400,
+            inUBX=1,
+            outUBX=1,
+        )
         # Bit 4 of the mode is set as receivers report it; pyubx2 calls it reserved.
         parsed = self.pyubx2.UBXReader.parse(self.written(), msgmode=set_it)
-        self.assertEqual((parsed.portID, parsed.baudRate, parsed.charLen, parsed.parity,
-                          parsed.nStopBits), (1, 38400, 3, 4, 0))  # fmt: skip
-        self.assertEqual((parsed.inUBX, parsed.inNMEA, parsed.outUBX, parsed.outNMEA),
-                         (1, 0, 1, 0))  # fmt: skip
+        self.assertEqual(
+            (parsed.portID, parsed.baudRate, parsed.charLen, parsed.parity, parsed.nStopBits),
+            (1, 38400, 3, 4, 0),
+        )
+        self.assertEqual((parsed.inUBX, parsed.inNMEA, parsed.outUBX, parsed.outNMEA), (1, 0, 1, 0))
         self.assertEqual(len(self.written()), len(expected.serialize()))

@@ -97,10 +97,11 @@ class Clones(WholeRunCase):
     @staticmethod
     def failing() -> dict[str, Any]:
         return {
-            "property": "h.assertion.1", "status": "FAILURE",
+            "property": "h.assertion.1",
+            "status": "FAILURE",
             "description": "BOX_001: it holds the value",
             "sourceLocation": {"file": "f.c", "line": "9", "function": "f"},
-        }  # fmt: skip
+        }
 
     def verdicts(self) -> dict[str, int]:
         status, output, report = self.prove()

@@ -42,8 +42,11 @@ OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 DOCUMENT = (ROOT / "docs/ci.md").read_text(encoding="utf-8")
 USES = re.compile(r"uses: (\S+?)@(\S+)( # v\d+\.\d+\.\d+)?$", re.M)
 # What steps are given of the run, as far as they look at it.
-GIVEN = {"matrix.shard": "2", "github.event_name == 'schedule' && '1' || ''": "",
-         "github.event_name == 'schedule' && '1' || '0'": "0"}  # fmt: skip
+GIVEN = {
+    "matrix.shard": "2",
+    "github.event_name == 'schedule' && '1' || ''": "",
+    "github.event_name == 'schedule' && '1' || '0'": "0",
+}
 
 
 def workflow(path: Path) -> dict[str, Any]:
@@ -100,8 +103,12 @@ class Workflows(unittest.TestCase):
                 self.assertIn(target, targets(ROOT / file), command)
 
     def test_every_option_of_prove_exists(self) -> None:
-        helped = subprocess.run([sys.executable, str(ROOT / "tools/keel"), "prove", "--help"],
-                                capture_output=True, text=True, check=True).stdout  # fmt: skip
+        helped = subprocess.run(
+            [sys.executable, str(ROOT / "tools/keel"), "prove", "--help"],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
         known = set(OPTION.findall(helped))
         asked = {option for command in proofs() for option in OPTION.findall(command)}
         self.assertIn("--explain", asked)
@@ -111,7 +118,7 @@ class Workflows(unittest.TestCase):
         job = jobs()["prove"]
         numbers = job["strategy"]["matrix"]["shard"]
         [command] = [step["run"] for step in job["steps"] if "--shard" in step.get("run", "")]
-        self.assertIn(f"/{len(numbers)}\" ", command)
+        self.assertIn(f'/{len(numbers)}" ', command)
         self.assertEqual(numbers, list(range(1, len(numbers) + 1)))
 
     def test_what_is_shown_and_kept_is_what_the_driver_writes(self) -> None:
@@ -125,8 +132,11 @@ class Workflows(unittest.TestCase):
     def test_the_evidence_rests_on_the_other_jobs_and_is_kept(self) -> None:
         job = jobs()["evidence"]
         self.assertLessEqual({"verdict", "check"}, set(job["needs"]))
-        kept = [step["with"]["path"] for step in job["steps"]
-                if "upload-artifact" in step.get("uses", "")]  # fmt: skip
+        kept = [
+            step["with"]["path"]
+            for step in job["steps"]
+            if "upload-artifact" in step.get("uses", "")
+        ]
         self.assertIn("build/evidence", kept)
         text = " ".join(str(step.get("run", "")) for step in job["steps"])
         self.assertIn("build/evidence-work/summary.md", text)
@@ -135,18 +145,25 @@ class Workflows(unittest.TestCase):
 
     def test_the_evidence_takes_the_proofs_and_all_reports(self) -> None:
         steps = jobs()["evidence"]["steps"]
-        taken = {step["with"]["name"]: step["with"]["path"] for step in steps
-                 if "download-artifact" in step.get("uses", "")}  # fmt: skip
+        taken = {
+            step["with"]["name"]: step["with"]["path"]
+            for step in steps
+            if "download-artifact" in step.get("uses", "")
+        }
         self.assertEqual(taken, {"reports": "build", "proofs": "build/prove"})
         [made] = [step for step in steps if step.get("run") == "make evidence"]
         self.assertEqual(made["env"], {"KEEL_PROVED": "1"})
 
     def test_the_check_hands_over_each_report_that_the_evidence_is_made_from(self) -> None:
-        [paths] = [step["with"]["path"].split() for step in jobs()["check"]["steps"]
-                   if step.get("with", {}).get("name") == "reports"]  # fmt: skip
+        [paths] = [
+            step["with"]["path"].split()
+            for step in jobs()["check"]["steps"]
+            if step.get("with", {}).get("name") == "reports"
+        ]
         reports = [f"build/{command.report}" for command in commands_of(ROOT)]
-        left = [name for name in reports
-                if not any(PurePosixPath(name).match(path) for path in paths)]  # fmt: skip
+        left = [
+            name for name in reports if not any(PurePosixPath(name).match(path) for path in paths)
+        ]
         self.assertEqual(left, [])
         self.assertEqual(reports[0], "build/prove/report.json")
         self.assertIn("!build/prove/**", paths)
@@ -165,8 +182,10 @@ class Workflows(unittest.TestCase):
         job = jobs()["prove"]
         quarter = minutes / len(job["strategy"]["matrix"]["shard"])
         self.assertLess(1.5 * quarter, job["timeout-minutes"])
-        for said, known in ((r"jobs of (\d+) minutes in all", minutes),
-                            (r"(\d+) minutes for each machine", quarter / 3)):  # fmt: skip
+        for said, known in (
+            (r"jobs of (\d+) minutes in all", minutes),
+            (r"(\d+) minutes for each machine", quarter / 3),
+        ):
             [told] = re.findall(said, DOCUMENT)
             self.assertLess(abs(int(told) / known - 1), 0.2, said)
 
@@ -240,28 +259,45 @@ class Steps(unittest.TestCase):
         if not is_clone(ROOT):
             self.skipTest("a release archive cannot be cloned")
         # Without --no-hardlinks the other user would be given the objects of this clone, too.
-        subprocess.run(["git", "clone", "-q", "--no-hardlinks", ROOT, self.clone], check=True,
-                       env={**os.environ, **workflow(WORKFLOWS[0])["env"]})  # fmt: skip
+        subprocess.run(
+            ["git", "clone", "-q", "--no-hardlinks", ROOT, self.clone],
+            check=True,
+            env={**os.environ, **workflow(WORKFLOWS[0])["env"]},
+        )
         if os.geteuid() == 0:
             for path in (self.clone, *self.clone.rglob("*")):
                 os.chown(path, 1234, 1234, follow_symlinks=False)
 
     def bare(self) -> dict[str, str]:
         """The variables of a machine of CI, before the workflow's."""
-        kept = {name: value for name, value in os.environ.items()
-                if not name.startswith(("GIT_", "KEEL_", "SUDO_", "MAKE"))}  # fmt: skip
+        kept = {
+            name: value
+            for name, value in os.environ.items()
+            if not name.startswith(("GIT_", "KEEL_", "SUDO_", "MAKE"))
+        }
         return {
-            **kept, "HOME": str(self.folder), "GIT_CONFIG_NOSYSTEM": "1",
-            "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}", "NOTED": str(self.noted),
-            "PYTHON": sys.executable, "GITHUB_STEP_SUMMARY": str(self.folder / "summary"),
+            **kept,
+            "HOME": str(self.folder),
+            "GIT_CONFIG_NOSYSTEM": "1",
+            "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}",
+            "NOTED": str(self.noted),
+            "PYTHON": sys.executable,
+            "GITHUB_STEP_SUMMARY": str(self.folder / "summary"),
             "GIT_TEST_ASSUME_DIFFERENT_OWNER": "1",
-        }  # fmt: skip
+        }
 
     def run_in(self, text: str, **variables: str) -> subprocess.CompletedProcess[str]:
         """Run a script as a container's shell does."""
-        return subprocess.run(["sh", "-e", "-c", text], cwd=self.clone, text=True, check=False,
-                              env={**self.bare(), **variables}, timeout=300,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)  # fmt: skip
+        return subprocess.run(
+            ["sh", "-e", "-c", text],
+            cwd=self.clone,
+            text=True,
+            check=False,
+            env={**self.bare(), **variables},
+            timeout=300,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
 
     def notes(self) -> list[str]:
         """What was asked of make and of Python."""
@@ -271,8 +307,10 @@ class Steps(unittest.TestCase):
 
     def test_every_workflow_has_git_read_a_clone_of_another_user(self) -> None:
         self.cloned()
-        ask = (f'PYTHONPATH=tools exec "{sys.executable}" -c "from pathlib import Path;'
-               'from keel.base.source import stamp_of; print(stamp_of(Path.cwd())[\'commit\'])"')
+        ask = (
+            f'PYTHONPATH=tools exec "{sys.executable}" -c "from pathlib import Path;'
+            "from keel.base.source import stamp_of; print(stamp_of(Path.cwd())['commit'])\""
+        )
         refused = self.run_in(ask)
         self.assertNotEqual(refused.returncode, 0)
         self.assertIn("detected dubious ownership", refused.stdout)
@@ -284,8 +322,10 @@ class Steps(unittest.TestCase):
     def step_of(self, job: str, part: str) -> tuple[str, dict[str, str]]:
         """A step's script, and its variables in the run that GIVEN tells of."""
         [step] = [one for one in jobs()[job]["steps"] if part in one.get("run", "")]
-        told = {name: re.sub(r"\$\{\{ (.*?) \}\}", lambda found: GIVEN[found[1]], str(value))
-                for name, value in step.get("env", {}).items()}  # fmt: skip
+        told = {
+            name: re.sub(r"\$\{\{ (.*?) \}\}", lambda found: GIVEN[found[1]], str(value))
+            for name, value in step.get("env", {}).items()
+        }
         return step["run"], told
 
     def test_what_each_step_asks_for(self) -> None:
@@ -294,9 +334,12 @@ class Steps(unittest.TestCase):
             ("prove", "--shard", ["python3 tools/keel prove --shard 2/4"]),
             ("evidence", "make evidence", ["make evidence"]),
             ("documents", "make lint", ["make lint"]),
-            ("documents", "make test", ["make test ARGS=--filter tools/docs",
-                                        "make test ARGS=--filter tools/workflow"]),
-        ):  # fmt: skip
+            (
+                "documents",
+                "make test",
+                ["make test ARGS=--filter tools/docs", "make test ARGS=--filter tools/workflow"],
+            ),
+        ):
             script, variables = self.step_of(job, part)
             ended = self.run_in(script, **variables)
             self.assertEqual((ended.returncode, self.notes()), (0, asked), ended.stdout)
@@ -314,8 +357,13 @@ class Steps(unittest.TestCase):
             (shards / f"shard-{number}-of-2.json").touch()
         script, _ = self.step_of("verdict", "--join")
         self.run_in(script)
-        self.assertEqual(self.notes(), ["python3 tools/keel prove --join build/shards/"
-                                        "shard-1-of-2.json build/shards/shard-2-of-2.json"])
+        self.assertEqual(
+            self.notes(),
+            [
+                "python3 tools/keel prove --join build/shards/"
+                "shard-1-of-2.json build/shards/shard-2-of-2.json"
+            ],
+        )
 
     def test_the_summaries_are_shown(self) -> None:
         for job, file in (("verdict", "prove"), ("evidence", "evidence-work")):
@@ -348,8 +396,14 @@ class Steps(unittest.TestCase):
 
     def test_on_one_machine_all_is_proved_and_the_evidence_made_at_last(self) -> None:
         asked, said = self.checked(KEEL_FRESH="1")
-        self.assertEqual(asked[:3], ["make python", "python3 tools/keel prove --kernel --fresh",
-                                     "python3 tools/keel prove --fresh"])  # fmt: skip
+        self.assertEqual(
+            asked[:3],
+            [
+                "make python",
+                "python3 tools/keel prove --kernel --fresh",
+                "python3 tools/keel prove --fresh",
+            ],
+        )
         self.assertEqual(asked[-1], "make evidence")
         self.assertIn("--- tools/keel prove --fresh: passed\n", said)
 

@@ -85,8 +85,16 @@ class World(unittest.TestCase):
     def model(places: list[tuple[float, float]], year: float = 2027.5) -> list[Vector]:
         """Of the model, in uT."""
         asked = json.dumps(places)
-        command = [sys.executable, ROOT / "tools/keel", "with", "world", "-c", MODEL,
-                   str(year), asked]  # fmt: skip
+        command = [
+            sys.executable,
+            ROOT / "tools/keel",
+            "with",
+            "world",
+            "-c",
+            MODEL,
+            str(year),
+            asked,
+        ]
         said = output_of(command)
         return [(one[0], one[1], one[2]) for one in json.loads(said.splitlines()[-1])]
 
@@ -95,8 +103,13 @@ class World(unittest.TestCase):
         """Drawn evenly between 65 degrees south and north."""
         drawn = random.Random(1)
         most = math.sin(math.radians(65.0))
-        return [(round(math.degrees(math.asin(drawn.uniform(-most, most))), 4),
-                 round(drawn.uniform(-180, 180), 4)) for _ in range(3000)]  # fmt: skip
+        return [
+            (
+                round(math.degrees(math.asin(drawn.uniform(-most, most))), 4),
+                round(drawn.uniform(-180, 180), 4),
+            )
+            for _ in range(3000)
+        ]
 
     def test_between_the_places_of_the_table(self) -> None:
         places = self.places()
@@ -117,9 +130,10 @@ class World(unittest.TestCase):
         places = self.places()
         pairs = zip(self.model(places, 2025.0), self.model(places, 2029.5), strict=True)
         drifts = sorted(
-            apart(declination(now), declination(then)) / 4.5 for now, then in pairs
+            apart(declination(now), declination(then)) / 4.5
+            for now, then in pairs
             if min(math.hypot(now[0], now[1]), math.hypot(then[0], then[1])) >= 8.0
-        )  # fmt: skip
+        )
         self.assertLess(drifts[-1], 0.4)
         self.assertLess(drifts[len(drifts) // 2], 0.1)
 

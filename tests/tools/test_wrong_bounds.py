@@ -27,8 +27,11 @@ FORMULA = re.compile(r"\{(.*?)\s->\s(.*?)\}", re.DOTALL)
 BOUND = re.compile(r"\|(\w+)\| <= (\S+)")
 HEXADECIMAL = re.compile(r"0x[0-9a-f]+(?:\.[0-9a-f]+)?(?:p[+-]?\d+)?")
 OPERATIONS: Mapping[type[ast.operator], Callable[[Fraction, Fraction], Fraction]] = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
-}  # fmt: skip
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
 BITS = 24  # Of a binary32's significand. Nothing here is so small that it is subnormal.
 
 
@@ -108,8 +111,13 @@ class WrongBoundTest(unittest.TestCase):
                 self.assertGreater(abs(values[wrong]), bounds(formula[2])[wrong])
 
     def test_numbers_by_hand(self) -> None:
-        singles = {"1": "1", "16777217": "16777216", "16777219": "16777220",
-                   "1/3": "11184811/33554432", "-33554435": "-33554436"}  # fmt: skip
+        singles = {
+            "1": "1",
+            "16777217": "16777216",
+            "16777219": "16777220",
+            "1/3": "11184811/33554432",
+            "-33554435": "-33554436",
+        }
         for value, single in singles.items():
             self.assertEqual(to_single(Fraction(value)), Fraction(single))
         self.assertEqual(number("0x5.8p-24"), Fraction(11, 2**25))

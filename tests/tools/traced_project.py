@@ -23,26 +23,37 @@ from keel.evidence.part import Context, Part
 ROOT = Path(__file__).resolve().parents[2]
 
 STAMP = {"commit": "c", "tree": "t", "product": "p"}
-GOAL = {"name": "keel_widget_turn_ensures_WID_001_turns", "status": "Valid", "prover": "Qed",
-        "target": "keel_widget_turn"}  # fmt: skip
+GOAL = {
+    "name": "keel_widget_turn_ensures_WID_001_turns",
+    "status": "Valid",
+    "prover": "Qed",
+    "target": "keel_widget_turn",
+}
 RANGE = {**GOAL, "name": "keel_widget_turn_ensures_WID_001_range"}
 HARNESS = {
-    "properties": 3, "proved": 3, "sound": True,
-    "assertions": [{"name": "turn.assertion.1", "description": "WID_001_turns: it turns",
-                    "status": "SUCCESS"}],
-}  # fmt: skip
+    "properties": 3,
+    "proved": 3,
+    "sound": True,
+    "assertions": [
+        {"name": "turn.assertion.1", "description": "WID_001_turns: it turns", "status": "SUCCESS"}
+    ],
+}
 PROVE = {
     "verdict": "proved",
-    "units": {"widget": {
-        "wp": {"goal_list": [GOAL, RANGE], "not_by_wp": {}},
-        "cbmc": {"harnesses": {"keel_widget_turn_harness": HARNESS}, "without_harness": {}},
-        "gappa": {"goal_list": []},
-    }},
-}  # fmt: skip
+    "units": {
+        "widget": {
+            "wp": {"goal_list": [GOAL, RANGE], "not_by_wp": {}},
+            "cbmc": {"harnesses": {"keel_widget_turn_harness": HARNESS}, "without_harness": {}},
+            "gappa": {"goal_list": []},
+        }
+    },
+}
 TEST = {"suites": {"unit/widget": {"tests": {"it_loops": "passed"}}}}
 REPORTS: dict[str, Any] = {
-    "prove/report.json": PROVE, "test/report.json": TEST, "test-target/report.json": {"suites": {}},
-}  # fmt: skip
+    "prove/report.json": PROVE,
+    "test/report.json": TEST,
+    "test-target/report.json": {"suites": {}},
+}
 
 
 class TracedProject(unittest.TestCase):

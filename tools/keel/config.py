@@ -31,18 +31,19 @@ from keel.install.packages import provide
 
 provide()
 
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    Field,
-    ValidationError,
-    model_validator,
-)
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 __all__ = [
-    "ConfigError", "Field", "Mistake", "Table", "Text", "model_validator", "parse_toml",
-    "read_json", "read_toml",
-]  # fmt: skip
+    "ConfigError",
+    "Field",
+    "Mistake",
+    "Table",
+    "Text",
+    "model_validator",
+    "parse_toml",
+    "read_json",
+    "read_toml",
+]
 
 SHOWN = 40  # Characters of what a file holds that an error quotes.
 
@@ -114,10 +115,12 @@ def checked(
         return model.model_validate(data, strict=strict)
     except ValidationError as error:
         mistakes = [
-            (existing(data, entry["loc"]),
-             reason_of(entry["type"], entry["msg"], entry["input"], entry["loc"], model))
+            (
+                existing(data, entry["loc"]),
+                reason_of(entry["type"], entry["msg"], entry["input"], entry["loc"], model),
+            )
             for entry in error.errors(include_url=False, include_context=False)
-        ]  # fmt: skip
+        ]
         raise refusal(data, shown, text, mistakes) from error
 
 

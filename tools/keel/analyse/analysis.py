@@ -21,13 +21,19 @@ from keel.install import MACHDEP_FILE, Toolchain
 
 TIMEOUT_S = 1200.0
 PRECISION = 2
-ANALYSIS = ("-eva", "-eva-no-print", "-eva-precision", str(PRECISION), "-from-verify-assigns",
-            "-no-calldeps-print", "-metrics-eva-cover")  # fmt: skip
+ANALYSIS = (
+    "-eva",
+    "-eva-no-print",
+    "-eva-precision",
+    str(PRECISION),
+    "-from-verify-assigns",
+    "-no-calldeps-print",
+    "-metrics-eva-cover",
+)
 # Arguments that point to objects of their own, whose contents are unknown.
 ANY_CONTEXT = ("-lib-entry", "-eva-context-valid-pointers", "-eva-context-width", "1")
 # The compiler's own stddef.h, as in the proofs, instead of Frama-C's beside it.
-OWN_STDDEF = ("-include stddef.h", "-D__FC_STDDEF", "-D__FC_DEFINE_SIZE_T",
-              "-D__FC_DEFINE_WCHAR_T")  # fmt: skip
+OWN_STDDEF = ("-include stddef.h", "-D__FC_STDDEF", "-D__FC_DEFINE_SIZE_T", "-D__FC_DEFINE_WCHAR_T")
 
 STATEMENTS = re.compile(r"^ +(\w+): (\d+) stmts out of (\d+) ", re.MULTILINE)
 ANALYZED = re.compile(r"^ +(\d+) functions? analyzed \(out of (\d+)\)", re.MULTILINE)
@@ -76,29 +82,41 @@ class Analysis:
     @property
     def alarms(self) -> list[Property]:
         """What is not known to hold, but for what is assigned."""
-        return [one for one in self.properties
-                if one.status not in GOOD and one.kind not in CLAUSES]  # fmt: skip
+        return [
+            one for one in self.properties if one.status not in GOOD and one.kind not in CLAUSES
+        ]
 
     def assigns(self, function: str) -> str:
         """Whether what a function writes is within its clause; "" if it was not reached."""
-        found = {one.status for one in self.properties
-                 if one.kind == CLAUSES[0] and COPY.sub("", one.function) == function}  # fmt: skip
+        found = {
+            one.status
+            for one in self.properties
+            if one.kind == CLAUSES[0] and COPY.sub("", one.function) == function
+        }
         return "" if not found else "Valid" if found <= {"Valid"} else "Unknown"
 
     def share(self, function: str) -> float:
         """How much of a function was reached, in its copy of which most was."""
-        return max((one.share for name, one in self.reach.items()
-                    if COPY.sub("", name) == function), default=0.0)  # fmt: skip
+        return max(
+            (one.share for name, one in self.reach.items() if COPY.sub("", name) == function),
+            default=0.0,
+        )
 
 
 def read_properties(text: str) -> tuple[Property, ...]:
     """The rows of Frama-C's report."""
     rows = csv.DictReader(text.splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE)
     return tuple(
-        Property(f"{row['directory']}/{row['file']}".removeprefix("./"), int(row["line"] or 0),
-                 row["function"], row["property kind"], row["status"], row["property"])
+        Property(
+            f"{row['directory']}/{row['file']}".removeprefix("./"),
+            int(row["line"] or 0),
+            row["function"],
+            row["property kind"],
+            row["status"],
+            row["property"],
+        )
         for row in rows
-    )  # fmt: skip
+    )
 
 
 def read_log(log: str, report: str) -> Analysis:
@@ -106,13 +124,18 @@ def read_log(log: str, report: str) -> Analysis:
     analyzed = ANALYZED.findall(log)
     if not analyzed:
         raise ToolError(f"frama-c: the analysis did not end:\n{log[-1000:].strip()}")
-    warnings = [f"{kind}: {' '.join(text.split())}" for kind, text in WARNING.findall(log)
-                if KNOWN_WARNING not in text]  # fmt: skip
+    warnings = [
+        f"{kind}: {' '.join(text.split())}"
+        for kind, text in WARNING.findall(log)
+        if KNOWN_WARNING not in text
+    ]
     return Analysis(
         read_properties(report),
         {name: Reach(int(reached), int(of)) for name, reached, of in STATEMENTS.findall(log)},
-        int(analyzed[-1][0]), int(analyzed[-1][1]), tuple(dict.fromkeys(warnings)),
-    )  # fmt: skip
+        int(analyzed[-1][0]),
+        int(analyzed[-1][1]),
+        tuple(dict.fromkeys(warnings)),
+    )
 
 
 class Eva:
@@ -133,9 +156,12 @@ class Eva:
         return [*command, f"-cpp-extra-args={' '.join(words)}", *files]
 
     def analyse(
-        self, files: Sequence[str], include: Sequence[str], entries: Sequence[str],
+        self,
+        files: Sequence[str],
+        include: Sequence[str],
+        entries: Sequence[str],
         options: Sequence[str] = (),
-    ) -> dict[str, Analysis]:  # fmt: skip
+    ) -> dict[str, Analysis]:
         """Each entry in a context of its own."""
         command = [*self.command(files, include), *options, *ANALYSIS]
         reports = {entry: self.folder / f"{entry}.csv" for entry in entries}
@@ -147,8 +173,10 @@ class Eva:
         done = run(command, TIMEOUT_S, cwd=self.folder, environment=variables)
         if not done.good:
             raise ToolError(f"frama-c: {done.how}\n{done.evidence}")
-        return {entry: read_log(log, reports[entry].read_text(encoding="utf-8"))
-                for entry, log in self.parts(done.output, reports)}  # fmt: skip
+        return {
+            entry: read_log(log, reports[entry].read_text(encoding="utf-8"))
+            for entry, log in self.parts(done.output, reports)
+        }
 
     @staticmethod
     def parts(output: str, reports: dict[str, Path]) -> list[tuple[str, str]]:

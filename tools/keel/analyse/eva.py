@@ -102,8 +102,12 @@ def judged(name: str, alone: Analysis, demo: Analysis) -> dict[str, Any]:
     runs = [(ALONE, alone), (IN_DEMO, demo)]
     where, best = max(runs, key=lambda one: one[1].share(name) if one[1].assigns(name) else -1.0)
     verdict = EXACT if best.assigns(name) == "Valid" else UNKNOWN
-    return {"function": name, "run": where, "reached": round(best.share(name), 3),
-            "verdict": verdict}  # fmt: skip
+    return {
+        "function": name,
+        "run": where,
+        "reached": round(best.share(name), 3),
+        "verdict": verdict,
+    }
 
 
 def compare_writes(
@@ -149,9 +153,12 @@ def judge(found: Mapping[str, Any], settings: Settings) -> Iterator[str]:
     """What is left to explain, and explanations of nothing."""
     used: set[int] = set()
     for one in found["alarms"]:
-        known = [number for number, entry in enumerate(settings.alarm)
-                 if (entry.file, entry.function, entry.text)
-                 == (one["file"], one["function"], one["text"])]  # fmt: skip
+        known = [
+            number
+            for number, entry in enumerate(settings.alarm)
+            if (entry.file, entry.function, entry.text)
+            == (one["file"], one["function"], one["text"])
+        ]
         used.update(known)
         if not known:
             yield f"{one['file']}:{one['line']}: {one['function']}: {one['kind']}: {one['text']}"
@@ -171,13 +178,15 @@ def key_of(tools: Toolchain, root: Path) -> str:
     """All that the findings depend on."""
     found = tools.versions("prove")
     own = Path(__file__).resolve().parents[1]
-    return digest({
-        "tools": {name: [found[name].version, found[name].sha256] for name in JUDGES},
-        "driver": digest_of_tree(own, ("base", "analyse", "install/machdep")),
-        "own": [sha256_of(own / "config.py"), sha256_of(own / "install/provers.py")],
-        "source": digest_of_tree(root, ("include", "src", DEMO)),
-        "precision": PRECISION,
-    })  # fmt: skip
+    return digest(
+        {
+            "tools": {name: [found[name].version, found[name].sha256] for name in JUDGES},
+            "driver": digest_of_tree(own, ("base", "analyse", "install/machdep")),
+            "own": [sha256_of(own / "config.py"), sha256_of(own / "install/provers.py")],
+            "source": digest_of_tree(root, ("include", "src", DEMO)),
+            "precision": PRECISION,
+        }
+    )
 
 
 def conclude(root: Path, tools: Toolchain, found: Mapping[str, Any]) -> int:
@@ -185,17 +194,26 @@ def conclude(root: Path, tools: Toolchain, found: Mapping[str, Any]) -> int:
     settings = read_toml(root / SETTINGS, Settings)
     problems = list(judge(found, settings))
     versions = tools.versions("prove")
-    write_report(root / REPORT, {
-        "problems": problems, **found,
-        "explained": settings.model_dump(), "precision": PRECISION,
-        "tools": {name: versions[name].version for name in JUDGES},
-    }, root, good=not problems)  # fmt: skip
+    write_report(
+        root / REPORT,
+        {
+            "problems": problems,
+            **found,
+            "explained": settings.model_dump(),
+            "precision": PRECISION,
+            "tools": {name: versions[name].version for name in JUDGES},
+        },
+        root,
+        good=not problems,
+    )
     for problem in problems:
         print(f"FAILED {problem}")
     within = sum(one["verdict"] != UNKNOWN for one in found["assigns"])
-    print(f"eva: {len(found['alarms'])} alarms in {found['analyzed']} functions; "
-          f"{within} of {len(found['assigns'])} contracts name all that is written; "
-          f"{len(problems)} problems")  # fmt: skip
+    print(
+        f"eva: {len(found['alarms'])} alarms in {found['analyzed']} functions; "
+        f"{within} of {len(found['assigns'])} contracts name all that is written; "
+        f"{len(problems)} problems"
+    )
     return 1 if problems else 0
 
 

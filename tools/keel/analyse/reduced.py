@@ -24,9 +24,7 @@ NO_CONTRACT = re.compile(
 )
 # It stands for the scheduler that runs, and exists as a ghost only.
 GHOST = "running_scheduler"
-PUBLIC = re.compile(
-    r"/\*@ assigns (?:(?!\*/).)*\*/\s*(?:static inline )?[\w ]+?[ *](keel_\w+)\("
-)  # fmt: skip
+PUBLIC = re.compile(r"/\*@ assigns (?:(?!\*/).)*\*/\s*(?:static inline )?[\w ]+?[ *](keel_\w+)\(")
 
 
 def widened(clause: str) -> str:
@@ -61,9 +59,7 @@ def reduced(text: str, wide: bool = False) -> str:
 
 def widened_lists(text: str, names: frozenset[str]) -> str:
     """A text in which these macros name whole arrays."""
-    return DEFINITION.sub(
-        lambda match: widened(match[0]) if match[1] in names else match[0], text
-    )
+    return DEFINITION.sub(lambda match: widened(match[0]) if match[1] in names else match[0], text)
 
 
 def write_tree(root: Path, folders: Iterable[str], target: Path, wide: bool = False) -> None:

@@ -36,9 +36,7 @@ class Coverage:
     problems: list[str] = field(default_factory=list)
 
 
-def coverage(
-    unit: Unit, function: str, signature: Signature, structures: Structures
-) -> Coverage:  # fmt: skip
+def coverage(unit: Unit, function: str, signature: Signature, structures: Structures) -> Coverage:
     """What the contract says of what a function writes and returns."""
     files = closure(unit.root, [unit.header])
     contract = _contract(unit, function, read(files))
@@ -74,10 +72,15 @@ class _Contract:
 def _contract(unit: Unit, function: str, texts: Iterable[str]) -> _Contract:
     every = list(texts)
     raw = next(
-        (contract for path in unit.own_files if path.suffix == ".h"
-         for name, contract in frames.contracts(csource.read(path))
-         if name == function), "",
-    )  # fmt: skip
+        (
+            contract
+            for path in unit.own_files
+            if path.suffix == ".h"
+            for name, contract in frames.contracts(csource.read(path))
+            if name == function
+        ),
+        "",
+    )
     parts = _clauses(" ".join(re.sub(r"(^|\s)@(?=\s)", " ", raw).split()))
     known = macros(every)
     assigns = [
@@ -118,9 +121,7 @@ def statement(text: str) -> str:
     return text[:position] if open_ones < 0 else text
 
 
-def _expanded(
-    location: str, known: Mapping[str, tuple[tuple[str, ...], str]]
-) -> list[str]:  # fmt: skip
+def _expanded(location: str, known: Mapping[str, tuple[tuple[str, ...], str]]) -> list[str]:
     """The locations that a macro stands for, or the location itself."""
     match = re.fullmatch(r"(\w+)\((.*)\)", location)
     if not match or match[1] not in known:
@@ -185,9 +186,7 @@ def _definitions(texts: Iterable[str]) -> dict[str, str]:
 def _without(text: str, required: str) -> str:
     """A clause without the parts that are required, too."""
     plain = re.sub(r"\s+", "", required)
-    return " && ".join(
-        part for part in split(text, "&&") if re.sub(r"\s+", "", part) not in plain
-    )  # fmt: skip
+    return " && ".join(part for part in split(text, "&&") if re.sub(r"\s+", "", part) not in plain)
 
 
 def _unfolded(text: str, definitions: Mapping[str, str]) -> str:

@@ -244,8 +244,15 @@ def _found(text: str, structures: Structures) -> Iterable[Same]:
         if any(one.type != INDEX_TYPE for one in rest):
             wrong = f"{function.name}: an index is a {INDEX_TYPE}"
         names = tuple(one.name for one in rest)
-        yield Same(function.name, objects[0].base, objects[0].name, objects[1].name, names,
-                   expression, wrong)  # fmt: skip
+        yield Same(
+            function.name,
+            objects[0].base,
+            objects[0].name,
+            objects[1].name,
+            names,
+            expression,
+            wrong,
+        )
 
 
 def returned(block: Node) -> Node | None:

@@ -37,8 +37,10 @@ def endless(files: Iterable[Path]) -> list[str]:
     for path in dict.fromkeys(files):
         text = csource.with_ghosts(csource.read(path))
         bodies |= {one.name: csource.body_of(text, one.name) for one in csource.defined(text)}
-    called = {name: {call.name for call in csource.calls(body, r"\w+")} & bodies.keys()
-              for name, body in bodies.items()}  # fmt: skip
+    called = {
+        name: {call.name for call in csource.calls(body, r"\w+")} & bodies.keys()
+        for name, body in bodies.items()
+    }
     problems = []
     for name in called:
         reached: set[str] = set()

@@ -123,17 +123,20 @@ class Decider:
                 outcome.beyond = not said.problems
             found.append(outcome)
         found += [
-            Outcome(unit.name, name, UNDETERMINED,
-                    problems=[f"units.toml: [{unit.name}] determined: there is no function {name}"])
+            Outcome(
+                unit.name,
+                name,
+                UNDETERMINED,
+                problems=[f"units.toml: [{unit.name}] determined: there is no function {name}"],
+            )
             for name in chosen
             if name not in functions
-        ]  # fmt: skip
+        ]
         return found
 
     def _by_equality(
-        self, unit: Unit, name: str, signature: Signature,
-        declared: Mapping[str, Signature] | None,
-    ) -> Outcome:  # fmt: skip
+        self, unit: Unit, name: str, signature: Signature, declared: Mapping[str, Signature] | None
+    ) -> Outcome:
         """What harnesses show of a function."""
         if declared is None:
             return Outcome(unit.name, name, OPEN)
@@ -183,8 +186,9 @@ class Decider:
         signature = self._signatures.get(harness.function, Signature("void", ()))
         handed = (
             self._reader.read(harness, calls[0], signature, loops(calls[0].node) or ())
-            if calls else Inputs()
-        )  # fmt: skip
+            if calls
+            else Inputs()
+        )
         self._read[harness.path] = handed
         for name in harness.replaces:
             narrow = self._contract(name)
@@ -212,13 +216,18 @@ class Decider:
         """What is wrong with the tables; all units must have been looked at."""
         table = similarity.read_table(self._root)
         found = self._parts.unused()
-        found += [f"{similarity.TABLE}: there is no unit {name}" for name in table
-                  if name not in self._units]  # fmt: skip
+        found += [
+            f"{similarity.TABLE}: there is no unit {name}"
+            for name in table
+            if name not in self._units
+        ]
         for name, unit in self._units.items():
             alike = similarity.similarity(unit)
             if alike >= similarity.ALIKE and name not in table:
-                found.append(f"{similarity.TABLE}: [{name}]: its model is its code under other"
-                             f" names ({alike:.2f}); say what else would see a slip")  # fmt: skip
+                found.append(
+                    f"{similarity.TABLE}: [{name}]: its model is its code under other"
+                    f" names ({alike:.2f}); say what else would see a slip"
+                )
         return found
 
     def notes(self, units: Iterable[str]) -> dict[str, str]:
@@ -241,9 +250,7 @@ class Decider:
         return every
 
 
-def _readings(
-    unit: Unit, name: str, signature: Signature, known: Structures
-) -> list[Reading]:  # fmt: skip
+def _readings(unit: Unit, name: str, signature: Signature, known: Structures) -> list[Reading]:
     """What the harnesses show that call the model."""
     reader = Reader(name, "model_" + name.removeprefix(unit.prefix), signature, known)
     own = [
@@ -261,16 +268,26 @@ def _complaints(name: str, model: str, readings: Iterable[Reading]) -> list[str]
 
 
 def _by_choice(
-    unit: Unit, seen: Outcome, chosen: tuple[str, str], signature: Signature, known: Structures,
+    unit: Unit,
+    seen: Outcome,
+    chosen: tuple[str, str],
+    signature: Signature,
+    known: Structures,
     left: Mapping[str, str],
-) -> Outcome:  # fmt: skip
+) -> Outcome:
     """What units.toml says determines a function, checked."""
     way, reason = chosen
     start = f"units.toml: [{unit.name}] determined: {seen.function}"
     outcome = Outcome(
-        unit.name, seen.function, way, seen.extent, seen.harnesses, seen.points, seen.assumes,
+        unit.name,
+        seen.function,
+        way,
+        seen.extent,
+        seen.harnesses,
+        seen.points,
+        seen.assumes,
         reason=reason,
-    )  # fmt: skip
+    )
     if way not in WAYS:
         outcome.problems = [f"{start}: `by` is one of {', '.join(WAYS)}"]
     elif seen.extent == EVERY:
@@ -292,8 +309,12 @@ def bounds_of(root: Path) -> dict[str, list[str]]:
     """The bounds within which functions are shown, their own; of a unit, those of all of its."""
     every: dict[str, list[str]] = {}
     for outcome in of_tree(root):
-        own = [text for bounds in outcome.harnesses.values() for text in bounds
-               if outcome.extent == BOUND and " by its contract" not in text]  # fmt: skip
+        own = [
+            text
+            for bounds in outcome.harnesses.values()
+            for text in bounds
+            if outcome.extent == BOUND and " by its contract" not in text
+        ]
         every[outcome.function] = own
         every.setdefault(outcome.unit, []).extend(own)
     return every
@@ -311,8 +332,11 @@ def summary(found: Iterable[Outcome]) -> str:
     if bound:
         text += f", {len(bound)} within a bound"
         text += f" ({beyond} of them with WP's clauses on every field beyond it)" if beyond else ""
-    for way, words in ((WP, "by WP's clauses alone"), (NOTHING, "excepted"),
-                       (OPEN, "open: their units have no model")):  # fmt: skip
+    for way, words in (
+        (WP, "by WP's clauses alone"),
+        (NOTHING, "excepted"),
+        (OPEN, "open: their units have no model"),
+    ):
         count = sum(one.by == way for one in good)
         text += f", {count} {words}" if count else ""
     wrong = len(every) - len(good)
@@ -336,9 +360,10 @@ COLUMNS = """
 
 
 def as_markdown(
-    found: Iterable[Outcome], said: Mapping[str, Sequence[str]] | None = None,
+    found: Iterable[Outcome],
+    said: Mapping[str, Sequence[str]] | None = None,
     notes: Mapping[str, str] | None = None,
-) -> str:  # fmt: skip
+) -> str:
     """The table, for people."""
     every = list(found)
     parts = [HEAD]
@@ -367,9 +392,11 @@ def _assumptions(said: Mapping[str, Sequence[str]]) -> str:
 
 
 def _row(outcome: Outcome) -> str:
-    shown = [*outcome.harnesses, *(
-        f"{name}: {', '.join(labels)}" for name, labels in outcome.fields.items() if labels
-    ), *(f"({name}: chosen points)" for name in outcome.points)]  # fmt: skip
+    shown = [
+        *outcome.harnesses,
+        *(f"{name}: {', '.join(labels)}" for name, labels in outcome.fields.items() if labels),
+        *(f"({name}: chosen points)" for name in outcome.points),
+    ]
     within = [text for bounds in outcome.harnesses.values() for text in bounds]
     extent = UNDETERMINED if outcome.problems else outcome.extent if outcome.by == EQUALITY else ""
     extent = extent or ("WP's clauses alone" if outcome.by == WP else outcome.by)
@@ -388,9 +415,7 @@ def _kept_words(kept: str, name: str) -> set[str]:
     return {line.strip() for line in block.splitlines()}
 
 
-def kept_problems(
-    root: Path, decider: Decider, found: Sequence[Outcome], whole: bool
-) -> list[str]:  # fmt: skip
+def kept_problems(root: Path, decider: Decider, found: Sequence[Outcome], whole: bool) -> list[str]:
     """How proofs/determined.md differs from what was found now, of all units or of some."""
     path = root / KEPT
     advice = "review, and run --update-goals"
@@ -408,8 +433,11 @@ def kept_problems(
         if not set(own[name]) <= _kept_words(kept, name):
             problems.append(f"{KEPT}: {name} says something else now: {advice}")
     notes = decider.notes(dict.fromkeys(one.unit for one in found))
-    problems += [f"{KEPT}: what is said of the model of {unit} has changed: {advice}"
-                 for unit, note in notes.items() if note not in kept]  # fmt: skip
+    problems += [
+        f"{KEPT}: what is said of the model of {unit} has changed: {advice}"
+        for unit, note in notes.items()
+        if note not in kept
+    ]
     if whole and not problems and kept != as_markdown(found, own, notes):
         problems.append(f"{KEPT} names what is not there any more: {advice}")
     return problems + (decider.problems() if whole else [])

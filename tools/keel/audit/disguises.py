@@ -155,16 +155,26 @@ def in_harness(text: str) -> Iterator[Finding]:
 def problems(root: Path, allowed: Collection[str]) -> list[str]:
     """The disguises in a project; `allowed` are conditionals that a person has accepted."""
     found = [
-        *_of(root, ("include/**/*.h", "src/**/*.[ch]"),
-             lambda text, path: in_what_is_built(text, path.name, allowed)),
-        *_of(root, ("specs/model/*.[ch]", "proofs/**/*.[ch]"),
-             lambda text, path: in_harness(text) if path.name.endswith("_harness.c") else ()),
-    ]  # fmt: skip
+        *_of(
+            root,
+            ("include/**/*.h", "src/**/*.[ch]"),
+            lambda text, path: in_what_is_built(text, path.name, allowed),
+        ),
+        *_of(
+            root,
+            ("specs/model/*.[ch]", "proofs/**/*.[ch]"),
+            lambda text, path: in_harness(text) if path.name.endswith("_harness.c") else (),
+        ),
+    ]
     built = (*root.glob("include/**/*.h"), *root.glob("src/**/*.[ch]")) if allowed else ()
-    used = {f"#{one.kind} {one.condition}" for path in built
-            for one in conditionals(csource.read(path))}  # fmt: skip
-    stale = (f"units.toml: conditionals: `{text}` stands nowhere any more, remove it"
-             for text in allowed if text not in used)  # fmt: skip
+    used = {
+        f"#{one.kind} {one.condition}" for path in built for one in conditionals(csource.read(path))
+    }
+    stale = (
+        f"units.toml: conditionals: `{text}` stands nowhere any more, remove it"
+        for text in allowed
+        if text not in used
+    )
     return [*found, *stale]
 
 

@@ -31,9 +31,15 @@ WHOLE = re.compile(
 WRITES = ("assignment_expression", "update_expression", "init_declarator")
 JUMPS = ("break_statement", "continue_statement", "goto_statement")
 # What is around a place that not every execution reaches.
-CONDITIONAL = frozenset([
-    "if_statement", "while_statement", "do_statement", "switch_statement", "conditional_expression",
-])  # fmt: skip
+CONDITIONAL = frozenset(
+    [
+        "if_statement",
+        "while_statement",
+        "do_statement",
+        "switch_statement",
+        "conditional_expression",
+    ]
+)
 
 
 @dataclass(frozen=True)
@@ -59,7 +65,7 @@ class Reader:
 
     def __init__(
         self, function: str, model: str, signature: Signature, structures: Structures
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._function = function
         self._model = model
         self._signature = signature
@@ -92,9 +98,13 @@ class _Comparison:
     """Two calls in a body, and what is asserted of them."""
 
     def __init__(
-        self, body: str, calls: tuple[Call, Call], texts: Sequence[str], structures: Structures,
+        self,
+        body: str,
+        calls: tuple[Call, Call],
+        texts: Sequence[str],
+        structures: Structures,
         defines: Sequence[str],
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._body = body
         self._code, self._model = calls
         self._comparers = Comparers(texts, structures, defines)

@@ -127,8 +127,9 @@ class Reader:
         known = {**self._shipped, **macros(map(csource.read, paths)), **_defined(harness.defines)}
         found = Inputs(bounds=[*self._defines(harness), *scene.others()])
         for where, text in [
-            *scene.narrowings(known), *((harness.name, f"for {head}") for head in loops)
-        ]:  # fmt: skip
+            *scene.narrowings(known),
+            *((harness.name, f"for {head}") for head in loops),
+        ]:
             plain = _resolved(text, known, self._shipped, harness)
             own = where == harness.name
             predicate = PRECONDITION.fullmatch(text)
@@ -345,8 +346,9 @@ class _Scene:
         node = _bare(node)
         if node.type != "conditional_expression":
             return False
-        _, *branches = [node.child_by_field_name(name)
-                        for name in ("condition", "consequence", "alternative")]  # fmt: skip
+        _, *branches = [
+            node.child_by_field_name(name) for name in ("condition", "consequence", "alternative")
+        ]
         return all(
             branch and (self._is_one_of(branch) or not re.search(r"\b[a-z]\w*", written(branch)))
             for branch in branches

@@ -34,9 +34,7 @@ UNKNOWN = re.compile(r"__CPROVER_uninterpreted_\w+")
 LIBRARY = frozenset("memcpy memset memcmp isnan isinf isfinite signbit __builtin_inff".split())
 # Functions of the code for which harnesses have others, which no harness shows to be like them.
 # Each is a bound in proofs/determined.md.
-OTHERS = {
-    "proofs/signing/signing_write.h": ("keel_mavlink_write",),
-}
+OTHERS = {"proofs/signing/signing_write.h": ("keel_mavlink_write",)}
 DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(?P<word>\w+)[ \t]*(?P<rest>[^\n]*)", re.MULTILINE)
 # Other spellings of directives, and what a compiler knows besides C.
 STRANGE = re.compile(r"%:|\?\?[=/]|\b(?:_Pragma|_Generic|asm|__asm\w*|goto|__attribute\w*)\b")
@@ -133,9 +131,7 @@ def _macro(name: str, words: set[str]) -> str:
     return ""
 
 
-def _definitions(
-    text: str, public: set[str], others: Collection[str]
-) -> Iterator[tuple[int, str]]:  # fmt: skip
+def _definitions(text: str, public: set[str], others: Collection[str]) -> Iterator[tuple[int, str]]:
     """What is wrong with the functions that a file defines."""
     for function in csource.defined(text):
         if function.name in others:
@@ -162,15 +158,20 @@ def _linked(root: Path, unit: Unit, path: Path, code: Mapping[Path, str]) -> Ite
     here = {one.name for text in own.values() for one in csource.defined(text)}
     linked: dict[str, Path] = {}
     for source in harness.sources:
-        linked |= {one.name: source for one in csource.defined(csource.read(source))
-                   if not one.static}  # fmt: skip
+        linked |= {
+            one.name: source for one in csource.defined(csource.read(source)) if not one.static
+        }
     for name in sorted(here & linked.keys()):
         yield f"{name} is defined by proofs, and by {shown(linked[name], root)}, which is linked"
     known = here | linked.keys() | CBMC | LIBRARY
     known |= {one.name for text in texts.values() for one in csource.defined(text)}
     known |= {one.name for text in code.values() for one in csource.functions(text)}
-    models = {one.name for file, text in texts.items() if file not in own
-              for one in csource.functions(text)}  # fmt: skip
+    models = {
+        one.name
+        for file, text in texts.items()
+        if file not in own
+        for one in csource.functions(text)
+    }
     macros = {name for text in texts.values() for name in _macros(text)}
     for file, text in own.items():
         for name in sorted(_called(text)):

@@ -27,6 +27,7 @@ def told(root: Path, proved: set[str]) -> list[str]:
     for one in listed:
         if proved.issuperset(one["rests_on"]):
             start = f"  {one['id']}: "
-            lines += textwrap.wrap(one["statement"], WIDTH, initial_indent=start,
-                                   subsequent_indent="    ")  # fmt: skip
+            lines += textwrap.wrap(
+                one["statement"], WIDTH, initial_indent=start, subsequent_indent="    "
+            )
     return ["these theorems hold (conditions: docs/proved.md):", *lines] if lines else []

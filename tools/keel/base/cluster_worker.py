@@ -43,10 +43,14 @@ def carry_out(archive: bytes, words: list[str], order: Any) -> Any:
     line that it writes. `words` are the program, from the project's root, and its arguments."""
     place = unpack(archive)
     done = subprocess.run(
-        [sys.executable, *words], input=json.dumps(order),
-        capture_output=True, text=True, cwd=place, check=False,
+        [sys.executable, *words],
+        input=json.dumps(order),
+        capture_output=True,
+        text=True,
+        cwd=place,
+        check=False,
         env={key: value for key, value in os.environ.items() if key != "DASK"},
-    )  # fmt: skip
+    )
     if done.returncode != 0:
         raise RuntimeError(f"an order failed: {done.stderr[-2000:]}")
     return json.loads(done.stdout.splitlines()[-1])

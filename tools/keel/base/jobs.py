@@ -45,9 +45,12 @@ class Runner:
         self._stopped = False
 
     def run(
-        self, command: Sequence[str], timeout: float | None = None, merged: bool = True,
+        self,
+        command: Sequence[str],
+        timeout: float | None = None,
+        merged: bool = True,
         extra: dict[str, str] | None = None,
-    ) -> Finished:  # fmt: skip
+    ) -> Finished:
         """Run a program to its end; its output is both streams, or stdout if not `merged`.
 
         The time-out is of processor time (limits.py).
@@ -99,10 +102,16 @@ class Runner:
             if self._stopped:
                 raise Stopped
             process = subprocess.Popen(
-                list(command), cwd=self._folder, env=environment, stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE, text=True, errors="replace", start_new_session=True,
+                list(command),
+                cwd=self._folder,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                text=True,
+                errors="replace",
+                start_new_session=True,
                 stderr=subprocess.STDOUT if merged else subprocess.DEVNULL,
-            )  # fmt: skip
+            )
             self._running.add(process)
         return process
 
@@ -131,9 +140,11 @@ class Stoppable(Protocol):
 
 
 def in_pool(
-    tasks: Sequence[Callable[[], T]], width: int, runner: Stoppable,
+    tasks: Sequence[Callable[[], T]],
+    width: int,
+    runner: Stoppable,
     look: Callable[[], None] = lambda: None,
-) -> Iterator[tuple[int, T]]:  # fmt: skip
+) -> Iterator[tuple[int, T]]:
     """Run tasks, `width` at a time, in their order; yield index and result as each finishes.
 
     `look` is called now and then while they run.

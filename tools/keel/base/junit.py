@@ -31,10 +31,17 @@ def plain(text: str) -> str:
 def suite_element(name: str, suite: JUnitSuite) -> ElementTree.Element:
     """One suite; a failure's first line is its message."""
     failed = sum(1 for text in suite.tests.values() if text)
-    element = ElementTree.Element("testsuite", {
-        "name": name, "tests": str(len(suite.tests)), "failures": str(failed), "errors": "0",
-        "skipped": "0", "time": f"{suite.seconds:.3f}",
-    })  # fmt: skip
+    element = ElementTree.Element(
+        "testsuite",
+        {
+            "name": name,
+            "tests": str(len(suite.tests)),
+            "failures": str(failed),
+            "errors": "0",
+            "skipped": "0",
+            "time": f"{suite.seconds:.3f}",
+        },
+    )
     if suite.properties:
         group = ElementTree.SubElement(element, "properties")
         for key, value in suite.properties.items():
@@ -52,11 +59,16 @@ def suite_element(name: str, suite: JUnitSuite) -> ElementTree.Element:
 def write_junit(path: Path, name: str, suites: Mapping[str, JUnitSuite]) -> None:
     """Write the report in one go."""
     elements = [suite_element(*item) for item in suites.items()]
-    whole = ElementTree.Element("testsuites", {
-        "name": name,
-        **{key: str(total(elements, key)) for key in ("tests", "failures", "errors", "skipped")},
-        "time": f"{sum(suite.seconds for suite in suites.values()):.3f}",
-    })  # fmt: skip
+    whole = ElementTree.Element(
+        "testsuites",
+        {
+            "name": name,
+            **{
+                key: str(total(elements, key)) for key in ("tests", "failures", "errors", "skipped")
+            },
+            "time": f"{sum(suite.seconds for suite in suites.values()):.3f}",
+        },
+    )
     whole.extend(elements)
     ElementTree.indent(whole)
     write_bytes(path, ElementTree.tostring(whole, "utf-8", xml_declaration=True) + b"\n")

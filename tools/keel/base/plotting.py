@@ -16,8 +16,13 @@ if TYPE_CHECKING:
 
 # Okabe and Ito's colours, which people tell apart whatever their eyes.
 BLUE, ORANGE, GREEN, RED, SKY, PURPLE = (
-    "#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7"
-)  # fmt: skip
+    "#0072b2",
+    "#e69f00",
+    "#009e73",
+    "#d55e00",
+    "#56b4e9",
+    "#cc79a7",
+)
 GREY = "#767676"
 COLOURS = (BLUE, ORANGE, GREEN, SKY, PURPLE, RED)
 

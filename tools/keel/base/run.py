@@ -77,10 +77,16 @@ class Running:
             if self._stopped:
                 raise Stopped
             child = subprocess.Popen(
-                command, cwd=cwd, env=environment, stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE, stderr=subprocess.PIPE if apart else subprocess.STDOUT,
-                text=True, errors="replace", start_new_session=True,
-            )  # fmt: skip
+                command,
+                cwd=cwd,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE if apart else subprocess.STDOUT,
+                text=True,
+                errors="replace",
+                start_new_session=True,
+            )
             self._children.add(child)
         return child
 
@@ -119,9 +125,13 @@ def stop_all(grace_s: float = GRACE_S) -> None:
 
 
 def run(
-    command: Sequence[str | Path], timeout_s: float | None = TIMEOUT_S, *, cwd: Path = ROOT,
-    environment: Mapping[str, str] | None = None, apart: bool = False,
-) -> Ended:  # fmt: skip
+    command: Sequence[str | Path],
+    timeout_s: float | None = TIMEOUT_S,
+    *,
+    cwd: Path = ROOT,
+    environment: Mapping[str, str] | None = None,
+    apart: bool = False,
+) -> Ended:
     """Run a program, for at most so many seconds of processor time (limits.py).
 
     Variables are added to ours. Its two output streams are one, unless `apart`. A program that is
@@ -153,9 +163,12 @@ def _end_of(child: subprocess.Popen[str], timeout_s: float | None) -> Ended:
 
 
 def output_of(
-    command: Sequence[str | Path], timeout_s: float | None = TIMEOUT_S, *, cwd: Path = ROOT,
+    command: Sequence[str | Path],
+    timeout_s: float | None = TIMEOUT_S,
+    *,
+    cwd: Path = ROOT,
     environment: Mapping[str, str] | None = None,
-) -> str:  # fmt: skip
+) -> str:
     """What a program prints; when it does not end well, that and its words are the error."""
     ended = run(command, timeout_s, cwd=cwd, environment=environment, apart=True)
     if not ended.good:

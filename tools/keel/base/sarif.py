@@ -40,9 +40,7 @@ def document(tool: str, results: Iterable[SarifResult]) -> dict[str, Any]:
 
 
 def _result(one: SarifResult) -> dict[str, Any]:
-    found: dict[str, Any] = {
-        "ruleId": one.rule, "level": "error", "message": {"text": one.message},
-    }  # fmt: skip
+    found: dict[str, Any] = {"ruleId": one.rule, "level": "error", "message": {"text": one.message}}
     if one.file:
         location: dict[str, Any] = {"artifactLocation": {"uri": one.file}}
         if one.line:

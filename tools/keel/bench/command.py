@@ -243,9 +243,11 @@ def set_report(kinds: Mapping[str, Kind]) -> dict[str, object]:
 
 
 def report_of(
-    tools: Toolchain, sets: Mapping[int, Mapping[str, Kind]], target: Target,
+    tools: Toolchain,
+    sets: Mapping[int, Mapping[str, Kind]],
+    target: Target,
     steps: Mapping[str, Kind],
-) -> dict[str, object]:  # fmt: skip
+) -> dict[str, object]:
     versions = {name: found.version for name, found in tools.versions("bench", "test").items()}
     used = ("gcc", "valgrind", "binutils", "arm-none-eabi-gcc")
     return {
@@ -265,10 +267,11 @@ def report_of(
 def measure(tools: Toolchain) -> list[Goal]:
     """Measure, report, print."""
     hosts = {
-        capacity: build_host(tools, f"host-{capacity}", LAYER, HARNESS,
-                             [f"-DKEEL_QUEUE_CAPACITY={capacity}u"])
+        capacity: build_host(
+            tools, f"host-{capacity}", LAYER, HARNESS, [f"-DKEEL_QUEUE_CAPACITY={capacity}u"]
+        )
         for capacity in sorted(set(SETS.values()))
-    }  # fmt: skip
+    }
     sets = {tasks: measure_set(tools, hosts[SETS[tasks]], tasks) for tasks in SETS}
     target = measure_target(tools)
     check_target_steps(tools)

@@ -23,8 +23,12 @@ from keel.install import Toolchain
 from keel.test.emulated import EmulatedBoard
 
 BUDGET = ROOT / "bench/budget.toml"
-SOURCES = ("bench/bench_target.c", "examples/urpilot/urpilot_tasks.c", "examples/copter",
-           "examples/copter_on_target/desk.c")  # fmt: skip
+SOURCES = (
+    "bench/bench_target.c",
+    "examples/urpilot/urpilot_tasks.c",
+    "examples/copter",
+    "examples/copter_on_target/desk.c",
+)
 SHIFT = 10  # An instruction takes 1024 ns: more than a tick of the counter, which so sees each one.
 LINE = re.compile(r"^bench (\w+) passes (\d+) instructions (\d+) longest (\d+)$", re.MULTILINE)
 TIMEOUT_S = 120.0
@@ -34,20 +38,27 @@ GOAL_TASKS = "21"
 # where the report has the host's figure.
 FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "no_task": ("pass, no task", ("waited", "idle"), 25, ("sets", GOAL_TASKS, "no_task")),
-    "one_task": ("pass, one task of 21", ("realtime", "other"), 200,
-                 ("sets", GOAL_TASKS, "one_task")),
+    "one_task": (
+        "pass, one task of 21",
+        ("realtime", "other"),
+        200,
+        ("sets", GOAL_TASKS, "one_task"),
+    ),
     # What a pass costs that the analyser counts with (specs/tasksets/urpilot.toml).
     "several_tasks": ("pass, two or three tasks", ("several",), None, ()),
     "four_tasks": ("pass, four tasks", ("four",), None, ()),
     "imu": ("virtual IMU, 3 x 6, all agree", ("imu",), 900, ("steps", "imu")),
-    "imu_worst": ("virtual IMU, 3 x 6, one outvoted", ("imu_worst",), 900,
-                  ("steps", "imu_worst")),
+    "imu_worst": ("virtual IMU, 3 x 6, one outvoted", ("imu_worst",), 900, ("steps", "imu_worst")),
     "filter": ("filter step", ("filter",), 30, ("steps", "filter")),
     "pid": ("PID step, its filter included", ("pid",), 110, ("steps", "pid")),
     "reference": ("reference generator, four sticks", ("reference",), 150, ("steps", "reference")),
     "mixer": ("mixer, 4 motors, all fits", ("mixer",), 200, ("steps", "mixer")),
-    "mixer_worst": ("mixer, 4 motors, all gives way", ("mixer_worst",), 200,
-                    ("steps", "mixer_worst")),
+    "mixer_worst": (
+        "mixer, 4 motors, all gives way",
+        ("mixer_worst",),
+        200,
+        ("steps", "mixer_worst"),
+    ),
     "mode": ("mode, in flight", ("mode",), 250, ("steps", "mode")),
     "mode_worst": ("mode, all facts waiting", ("mode_worst",), 250, ("steps", "mode_worst")),
     "attitude": ("attitude, all sensors in each", ("attitude",), 600, ("steps", "attitude")),
@@ -57,8 +68,12 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "battery": ("battery, two modules", ("battery",), 400, ("steps", "battery")),
     "calibration": ("calibration at rest", ("calibration",), 250, ("steps", "calibration")),
     "sbus": ("SBUS, a byte of right frames", ("sbus",), 100, ("steps", "sbus")),
-    "sbus_worst": ("SBUS, a byte of nothing but headers", ("sbus_worst",), 300,
-                   ("steps", "sbus_worst")),
+    "sbus_worst": (
+        "SBUS, a byte of nothing but headers",
+        ("sbus_worst",),
+        300,
+        ("steps", "sbus_worst"),
+    ),
     "ms5611": ("MS5611, a reading in frost", ("ms5611",), 300, ("steps", "ms5611")),
     "ubx": ("UBX, a byte of right messages", ("ubx",), 200, ("steps", "ubx")),
     "mavlink": ("MAVLink, a byte of right frames", ("mavlink",), 200, ("steps", "mavlink")),
@@ -73,17 +88,35 @@ FIGURES: dict[str, tuple[str, tuple[str, ...], int | None, tuple[str, ...]]] = {
     "crsf": ("CRSF, a byte of right frames", ("crsf",), 200, ("steps", "crsf")),
     "ibus": ("IBUS, a byte of right frames", ("ibus",), 200, ("steps", "ibus")),
     "ppm": ("PPM, an edge of right frames", ("ppm",), 200, ("steps", "ppm")),
-}  # fmt: skip
+}
 # The bodies of the 21 tasks of examples/copter, in flight, with what they read of their devices.
 TASKS = (
-    "scheduler_analysis", "stack", "adc", "background_power_module", "foreground_power_module",
-    "background_barometer", "foreground_barometer", "background_magnetometer",
-    "foreground_magnetometer", "calibration_magnetometer", "background_imu", "foreground_imu",
-    "calibration_imu", "gps", "background_radio", "foreground_radio", "navigation",
-    "angle_rate_control", "angle_control", "position_control", "state_machine",
-)  # fmt: skip
-FIGURES |= {f"task_{name}": (f"task: {name.replace('_', ' ')}", (f"task_{name}",), None, ())
-            for name in TASKS}  # fmt: skip
+    "scheduler_analysis",
+    "stack",
+    "adc",
+    "background_power_module",
+    "foreground_power_module",
+    "background_barometer",
+    "foreground_barometer",
+    "background_magnetometer",
+    "foreground_magnetometer",
+    "calibration_magnetometer",
+    "background_imu",
+    "foreground_imu",
+    "calibration_imu",
+    "gps",
+    "background_radio",
+    "foreground_radio",
+    "navigation",
+    "angle_rate_control",
+    "angle_control",
+    "position_control",
+    "state_machine",
+)
+FIGURES |= {
+    f"task_{name}": (f"task: {name.replace('_', ' ')}", (f"task_{name}",), None, ())
+    for name in TASKS
+}
 
 
 @dataclass(frozen=True)
@@ -197,8 +230,10 @@ def print_table(
         shown = f"{host:9.1f}" if host is not None else f"{'-':>9}"
         figure = figures[name]
         met = "-" if goal is None else f"{goal} {'met' if figure.mean <= goal else 'MISSED'}"
-        print(f"  {label:30}{shown}{figure.mean:11.1f} ({figure.longest:5})"
-              f"{budget.instructions[name]:11.1f}   {met}")  # fmt: skip
+        print(
+            f"  {label:30}{shown}{figure.mean:11.1f} ({figure.longest:5})"
+            f"{budget.instructions[name]:11.1f}   {met}"
+        )
 
 
 def add(tools: Toolchain, report_file: Path, accepting: bool = False) -> list[str]:

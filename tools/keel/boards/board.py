@@ -123,9 +123,7 @@ def read_base(root: Path, file: BoardFile) -> Shared:
     """What a board shares with others; nothing unless its file names a base."""
     if not file.base:
         return Shared()
-    return read_toml(
-        root / file.base, Shared, lambda found: names_of_nothing(root, found, file)
-    )
+    return read_toml(root / file.base, Shared, lambda found: names_of_nothing(root, found, file))
 
 
 def mistakes(root: Path, file: BoardFile) -> Iterator[Mistake]:
@@ -147,9 +145,12 @@ def joined(name: str, file: BoardFile, base: Shared) -> Board:
     lists = {key: [*getattr(base, key), *getattr(file, key)] for key in Shared.model_fields}
     lists["region"] = list({region.name: region for region in lists["region"]}.values())
     return Board(
-        name=name, description=file.description, linker_script=file.linker_script,
-        load_address=file.load_address, **lists,
-    )  # fmt: skip
+        name=name,
+        description=file.description,
+        linker_script=file.linker_script,
+        load_address=file.load_address,
+        **lists,
+    )
 
 
 def read_board(root: Path, name: str) -> Board:

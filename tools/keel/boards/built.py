@@ -34,8 +34,10 @@ def read_built(root: Path, board: str) -> BuiltImage:
     try:
         report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
         image = image_of(folder, report)
-        same = all(sha256_of(folder / report[part]["file"]) == report[part]["sha256"]
-                   for part in ("elf", "binary"))  # fmt: skip
+        same = all(
+            sha256_of(folder / report[part]["file"]) == report[part]["sha256"]
+            for part in ("elf", "binary")
+        )
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise ToolError(f"there is no whole image of {board} ({error}); {remedy}") from error
     if not same:
@@ -46,7 +48,10 @@ def read_built(root: Path, board: str) -> BuiltImage:
 def image_of(folder: Path, report: Mapping[str, Any]) -> BuiltImage:
     """What a report says of an image."""
     return BuiltImage(
-        folder, folder / report["elf"]["file"], folder / report["binary"]["file"],
-        int(report["load_address"]), int(report["regions"]["FLASH"]["size"]),
+        folder,
+        folder / report["elf"]["file"],
+        folder / report["binary"]["file"],
+        int(report["load_address"]),
+        int(report["regions"]["FLASH"]["size"]),
         dict(report["objects"]),
-    )  # fmt: skip
+    )

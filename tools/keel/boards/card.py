@@ -71,9 +71,16 @@ class SdCard:
         if application and index in (6, 41):
             return self._question(argument) if index == 41 else self._lines(argument)
         commands = {
-            0: self._idle, 2: self._identify, 3: self._name, 7: self._select, 8: self._condition,
-            9: self._describe, 12: self._stop, 13: self._look, 55: self._announce,
-        }  # fmt: skip
+            0: self._idle,
+            2: self._identify,
+            3: self._name,
+            7: self._select,
+            8: self._condition,
+            9: self._describe,
+            12: self._stop,
+            13: self._look,
+            55: self._announce,
+        }
         if index in (17, 18, 24, 25):
             return self._begin(index, argument)
         return commands[index](argument) if index in commands else self._refuse()

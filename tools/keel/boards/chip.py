@@ -19,20 +19,50 @@ SPI2, SPI4, TIM4, TIM12 = 0x4000_3800, 0x4001_3400, 0x4000_0800, 0x4000_1800
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
 ADC1, ADC_COMMON, SDMMC1 = 0x4001_2000, 0x4001_2300, 0x4001_2C00
 BLOCKS = {
-    TIM5: 0x54, IWDG: 0x14, USART3: 0x2C, PWR: 0x10, UART7: 0x2C, TIM1: 0x68, SPI1: 0x24,
-    SPI2: 0x24, SPI4: 0x24, RCC: 0x98, FLASHR: 0x1C, SCB: 0x2A4, DBGMCU: 0x10, SYSTICK: 0x10,
-    TIM4: 0x54, TIM12: 0x54, NVIC: 0x200, ADC1: 0x50, ADC_COMMON: 0xC, SDMMC1: 0x84,
+    TIM5: 0x54,
+    IWDG: 0x14,
+    USART3: 0x2C,
+    PWR: 0x10,
+    UART7: 0x2C,
+    TIM1: 0x68,
+    SPI1: 0x24,
+    SPI2: 0x24,
+    SPI4: 0x24,
+    RCC: 0x98,
+    FLASHR: 0x1C,
+    SCB: 0x2A4,
+    DBGMCU: 0x10,
+    SYSTICK: 0x10,
+    TIM4: 0x54,
+    TIM12: 0x54,
+    NVIC: 0x200,
+    ADC1: 0x50,
+    ADC_COMMON: 0xC,
+    SDMMC1: 0x84,
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
-}  # fmt: skip
+}
 RESETS = {
     FLASHR + 0x10: 1 << 31,
-    RCC: 0x83, RCC + 4: 0x2400_3010, RCC + 0x30: 0x0010_0000, RCC + 0x74: 0x0E00_0000,
-    PWR: 0xC000, USART3 + 0x1C: 0xC0, UART7 + 0x1C: 0xC0, SPI1 + 4: 0x700, SPI1 + 8: 2,
-    SPI2 + 4: 0x700, SPI2 + 8: 2, SPI4 + 4: 0x700, SPI4 + 8: 2,
-    IWDG + 8: 0xFFF, FLASHR + 0x14: 0xFFFF_AAF1, GPIOA: 0xA800_0000, GPIOA + 0x400: 0x280,
+    RCC: 0x83,
+    RCC + 4: 0x2400_3010,
+    RCC + 0x30: 0x0010_0000,
+    RCC + 0x74: 0x0E00_0000,
+    PWR: 0xC000,
+    USART3 + 0x1C: 0xC0,
+    UART7 + 0x1C: 0xC0,
+    SPI1 + 4: 0x700,
+    SPI1 + 8: 2,
+    SPI2 + 4: 0x700,
+    SPI2 + 8: 2,
+    SPI4 + 4: 0x700,
+    SPI4 + 8: 2,
+    IWDG + 8: 0xFFF,
+    FLASHR + 0x14: 0xFFFF_AAF1,
+    GPIOA: 0xA800_0000,
+    GPIOA + 0x400: 0x280,
     SCB + 0x80: 0x0FE0_0019 | 127 << 13,  # 128 sets of 4 ways of 32 bytes.
     SCB + 0x90: 0x800,
-}  # fmt: skip
+}
 
 # Peripherals that the model knows to need their clocks: the register, and the bit.
 CLOCKED = {timer.base: timer.enable for timer in timers().values()}
@@ -112,8 +142,12 @@ UID_PLACE, UID = 0x1FF0_F420, bytes(range(0x41, 0x4D))
 COUNTS = {0: 1026, 1: 200, 2: 0, 3: 4095, 10: 3138, 11: 2071, 17: 1519, 18: 1000}
 BATTERY = 950
 CYCLES = (3, 15, 28, 56, 84, 112, 144, 480)  # To sample, by their code.
-PIN_OF = {**{i: (0, i) for i in range(8)}, 8: (1, 0), 9: (1, 1),
-          **{10 + i: (2, i) for i in range(6)}}  # fmt: skip
+PIN_OF = {
+    **{i: (0, i) for i in range(8)},
+    8: (1, 0),
+    9: (1, 1),
+    **{10 + i: (2, i) for i in range(6)},
+}
 
 
 @dataclass
@@ -233,12 +267,22 @@ class Chip:
             return  # Without its clock a peripheral takes nothing.
         self.words[address] = value
         handler: Callable[[int, int], None] | None = {
-            RCC: self._rcc, PWR: self._pwr, IWDG: self._iwdg, SPI1: self._spi, SPI2: self._spi2,
+            RCC: self._rcc,
+            PWR: self._pwr,
+            IWDG: self._iwdg,
+            SPI1: self._spi,
+            SPI2: self._spi2,
             SPI4: self._spi4,
-            TIM1: self._tim1, TIM5: self._tim5, self.console: self._uart, SCB: self._scb,
-            FLASHR: self._flash, ADC1: self._adc, ADC_COMMON: self._adc_common,
-            SDMMC1: self._sdmmc, SYSTICK: self._systick,
-        }.get(base)  # fmt: skip
+            TIM1: self._tim1,
+            TIM5: self._tim5,
+            self.console: self._uart,
+            SCB: self._scb,
+            FLASHR: self._flash,
+            ADC1: self._adc,
+            ADC_COMMON: self._adc_common,
+            SDMMC1: self._sdmmc,
+            SYSTICK: self._systick,
+        }.get(base)
         if handler:
             handler(address - base, value)
         elif GPIOA <= base < GPIOA + 11 * 0x400:
@@ -374,9 +418,7 @@ class Chip:
         if offset == 0xC:
             clock = bool(self.words.get(RCC + 0x44, 0) & 1 << 13)
             self._check_bus("barometer", SPI4, BAROMETER_PINS, clock, 108, 20)
-            self._exchange(
-                SPI4, lambda byte: self.barometer.exchange(byte, self.time_us), value
-            )
+            self._exchange(SPI4, lambda byte: self.barometer.exchange(byte, self.time_us), value)
 
     def _exchange(self, spi: int, exchange: Callable[[int], int], value: int) -> None:
         if not self.words.get(spi, 0) & 0x40:
@@ -385,9 +427,14 @@ class Chip:
         self.words[spi + 8] |= 1
 
     def _check_bus(
-        self, device: str, spi: int, pins: Sequence[tuple[int, int]], clock: bool, bus_mhz: int,
+        self,
+        device: str,
+        spi: int,
+        pins: Sequence[tuple[int, int]],
+        clock: bool,
+        bus_mhz: int,
         limit_mhz: int,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """What must hold around an SPI when a byte goes to its only device."""
         control = self.words.get(spi, 0)
         rate_mhz = bus_mhz / (2 << (control >> 3 & 7))
@@ -433,8 +480,10 @@ class Chip:
         self.high -= {(port, bit) for bit in range(16) if value >> 16 >> bit & 1}
         self.high |= {(port, bit) for bit in range(16) if value >> bit & 1}
         for device, (number, pin) in (
-            (self.sensor, self.select), (self.fram, FRAM_SELECT), (self.barometer, BAROMETER_SELECT)
-        ):  # fmt: skip
+            (self.sensor, self.select),
+            (self.fram, FRAM_SELECT),
+            (self.barometer, BAROMETER_SELECT),
+        ):
             if port == number and value >> pin & 0x1_0001:
                 device.select(bool(value >> 16 >> pin & 1))
 
@@ -466,7 +515,7 @@ class Chip:
             f"its clock is {usb_mhz} MHz": usb_mhz == 48,
             "a pin is not its own": all(self._function_of(pin) == 12 for pin in CARD_PINS),
             "the card has no supply": CARD_POWER in self.high,
-        }  # fmt: skip
+        }
         for reason, held in rules.items():
             if not held:
                 raise ModelError(f"a command goes to the card, but {reason}")
@@ -543,8 +592,7 @@ class Chip:
             "there would be more than one": not self.words.get(ADC1 + 0x2C, 0) >> 20 & 0xF,
             "that is joined to nothing": channel in COUNTS,
             "its pin is not analogue": channel not in PIN_OF or mode == 3,
-            "the sensors are not up": channel in PIN_OF or (
-                sensors_us is not None and self.time_us - sensors_us >= 10
-            ),
+            "the sensors are not up": channel in PIN_OF
+            or (sensors_us is not None and self.time_us - sensors_us >= 10),
             f"it is sampled for {sampled_us:g} us": channel in PIN_OF or sampled_us >= 10,
-        }  # fmt: skip
+        }

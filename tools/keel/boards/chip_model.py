@@ -44,10 +44,17 @@ CONSOLES = {"nucleo_f767zi": (USART3, (3, 14)), "fmuv5": (UART7, (5, 2))}
 
 
 def simulate(
-    tools: Toolchain, root: Path, name: str, seconds: float,
-    keys: Sequence[tuple[int, str]] = (), broken: str = "", step_us: int = 1,
-    options: int = OPTIONS, card: SdCard | None = None, fram: Fram | None = None,
-) -> Chip:  # fmt: skip
+    tools: Toolchain,
+    root: Path,
+    name: str,
+    seconds: float,
+    keys: Sequence[tuple[int, str]] = (),
+    broken: str = "",
+    step_us: int = 1,
+    options: int = OPTIONS,
+    card: SdCard | None = None,
+    fram: Fram | None = None,
+) -> Chip:
     """Run a board's image; the chip afterwards. Longer steps make a shorter, coarser run."""
     if name not in CONSOLES:
         raise ToolError(unknown("model", name, CONSOLES))
@@ -88,14 +95,21 @@ def read_card(path: Path) -> SdCard:
 def conclude(board: str, seconds: float, chip: Chip, root: Path) -> int:
     """Print what the board said, write the report; the exit status."""
     print(chip.text.replace("\r", ""), end="")
-    content = {"board": board, "seconds": seconds, "resets": chip.resets,
-               "sensor_samples": chip.sensor.samples, "armed_us": chip.armed_us,
-               "outputs": chip.outputs.log,
-               "console": chip.text}  # fmt: skip
+    content = {
+        "board": board,
+        "seconds": seconds,
+        "resets": chip.resets,
+        "sensor_samples": chip.sensor.samples,
+        "armed_us": chip.armed_us,
+        "outputs": chip.outputs.log,
+        "console": chip.text,
+    }
     write_json(root / REPORT / f"{board}.json", content)
     good = f"Keel on {board}" in chip.text or "safe state" in chip.text
-    print(f"model: {board}: {seconds:g} s of its time, {chip.resets} resets"
-          f"{'' if good else ', but it did not say what it is'}.")  # fmt: skip
+    print(
+        f"model: {board}: {seconds:g} s of its time, {chip.resets} resets"
+        f"{'' if good else ', but it did not say what it is'}."
+    )
     return 0 if good else 1
 
 

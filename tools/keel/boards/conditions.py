@@ -48,9 +48,14 @@ def flags_say(condition: str, status: int) -> bool:
     """Whether a condition holds (ARMv7-M Architecture Reference Manual, A7.3)."""
     n, z, c, v = (bool(status >> bit & 1) for bit in (31, 30, 29, 28))
     positive = {
-        "eq": z, "hs": c, "mi": n, "vs": v, "hi": c and not z, "ge": n == v,
+        "eq": z,
+        "hs": c,
+        "mi": n,
+        "vs": v,
+        "hi": c and not z,
+        "ge": n == v,
         "gt": not z and n == v,
-    }  # fmt: skip
+    }
     opposite = {"ne": "eq", "lo": "hs", "pl": "mi", "vc": "vs", "ls": "hi", "lt": "ge", "le": "gt"}
     if condition in opposite:
         return not positive[opposite[condition]]
@@ -70,8 +75,9 @@ class Conditions:
         prefix = "ARM_CC_"
         self.names = {
             value: name.removeprefix(prefix).lower()
-            for name, value in vars(self.arm).items() if name.startswith(prefix)
-        }  # fmt: skip
+            for name, value in vars(self.arm).items()
+            if name.startswith(prefix)
+        }
 
     def of(self, contents: Contents, function: Symbol) -> Iterator[Conditional]:
         """Those of one function, in the order of their addresses."""
@@ -90,8 +96,10 @@ class Conditions:
         offset = instruction.address - function.address
         condition = self.names.get(instruction.cc, "")
         if name.startswith(COMPUTED) or self.jumps_by_register(instruction):
-            raise ConditionError(f"{function.name}+0x{offset:x}: {name} {instruction.op_str}: a "
-                                 "computed jump has no two outcomes to count")  # fmt: skip
+            raise ConditionError(
+                f"{function.name}+0x{offset:x}: {name} {instruction.op_str}: a "
+                "computed jump has no two outcomes to count"
+            )
         if name in ZERO:
             kind, condition = BRANCH, name
             text = f"{name} {instruction.reg_name(operands[0].reg)}"

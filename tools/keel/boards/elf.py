@@ -73,8 +73,10 @@ class Contents:
         end = symbol.address + symbol.size
         if not symbol.size:  # Of a library's assembly: up to the next function.
             last = home.address + home.size
-            end = min((it.address for it in self.functions if symbol.address < it.address < last),
-                      default=last)  # fmt: skip
+            end = min(
+                (it.address for it in self.functions if symbol.address < it.address < last),
+                default=last,
+            )
         inside = [(at, code) for at, code in self.marks if symbol.address < at < end]
         before = [(at, code) for at, code in self.marks if at <= symbol.address]
         parts = [(symbol.address, not before or before[-1][1]), *inside, (end, False)]

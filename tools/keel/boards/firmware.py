@@ -55,13 +55,24 @@ from keel.install import TARGET_FLAGS, Toolchain
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wconversion", "-Wdouble-promotion", "-Wundef")
 # No contraction: a fused multiply-add would round once where the proofs and the host round twice.
 FLAGS = (
-    "-std=c99", "-O2", "-g", "-ffreestanding", "-ffunction-sections", "-fdata-sections",
-    "-fno-common", "-ffp-contract=off", "-fstack-usage", "-fcallgraph-info=su,da",
-)  # fmt: skip
+    "-std=c99",
+    "-O2",
+    "-g",
+    "-ffreestanding",
+    "-ffunction-sections",
+    "-fdata-sections",
+    "-fno-common",
+    "-ffp-contract=off",
+    "-fstack-usage",
+    "-fcallgraph-info=su,da",
+)
 LINK_FLAGS = (
-    "-nostartfiles", "-static", "-Wl,--gc-sections", "-Wl,--fatal-warnings",
+    "-nostartfiles",
+    "-static",
+    "-Wl,--gc-sections",
+    "-Wl,--fatal-warnings",
     "-Wl,--orphan-handling=error",
-)  # fmt: skip
+)
 LIBRARIES = ("-lm", "-lc", "-lgcc")
 COMMON_INCLUDE = ("include", "bsp")
 FATFS = "bsp/fatfs"
@@ -148,10 +159,13 @@ def report_of(
     """What is kept of a build."""
     board = builder.board
     versions = {name: found.version for name, found in builder.tools.versions("firmware").items()}
-    made = {path: Path("foreign", Path(name).name).as_posix() if Path(name).is_absolute() else name
-            for path, name in builder.build.sources().items()}  # fmt: skip
-    sources = {made[path]: sha256_of(builder.root / name)
-               for path, name in builder.build.sources().items()}  # fmt: skip
+    made = {
+        path: Path("foreign", Path(name).name).as_posix() if Path(name).is_absolute() else name
+        for path, name in builder.build.sources().items()
+    }
+    sources = {
+        made[path]: sha256_of(builder.root / name) for path, name in builder.build.sources().items()
+    }
     used = usage(board, contents)
     return {
         "schema": 1,
@@ -172,8 +186,9 @@ def report_of(
         },
         "sections": [asdict(section) for section in contents.sections],
         "sources": dict(sorted(sources.items())),
-        "objects": {name: path.relative_to(builder.folder).as_posix()
-                    for path, name in sorted(made.items())},
+        "objects": {
+            name: path.relative_to(builder.folder).as_posix() for path, name in sorted(made.items())
+        },
         "checks": [asdict(check) for check in checks],
     }
 
@@ -198,12 +213,15 @@ def build(
     image = builder.link("keel", [*objects, *(builder.fatfs() if fatfs else [])])
     contents, checks = examine(builder, image)
     # What is wrong has raised an error. Another application than the board's is not its firmware.
-    write_report(report, report_of(builder, image, contents, checks), root, good=True,
-                 whole=not application)  # fmt: skip
+    write_report(
+        report, report_of(builder, image, contents, checks), root, good=True, whole=not application
+    )
     print_usage(board, contents)
     size = image.binary.stat().st_size
-    print(f"firmware: {FIRMWARE}/{name}/keel.elf, {size} bytes to load at "
-          f"0x{board.load_address:08x}, {len(checks)} checks of places passed.")  # fmt: skip
+    print(
+        f"firmware: {FIRMWARE}/{name}/keel.elf, {size} bytes to load at "
+        f"0x{board.load_address:08x}, {len(checks)} checks of places passed."
+    )
     return folder
 
 
@@ -212,13 +230,20 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     parser = Parser("Build the firmware of a board.", "firmware")
     parser.add_argument("board", help="the board, a folder of bsp")
     parser.add_argument(
-        "--app", action="append", default=[], metavar="PATH",
+        "--app",
+        action="append",
+        default=[],
+        metavar="PATH",
         help="a file or folder with the application, instead of the board's own",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--with", dest="libraries", action="append", default=[], choices=("fatfs",),
+        "--with",
+        dest="libraries",
+        action="append",
+        default=[],
+        choices=("fatfs",),
         help="a library that the application uses",
-    )  # fmt: skip
+    )
     parser.add_argument(
         "--named", metavar="NAME", help="an application that the board's file names, instead"
     )

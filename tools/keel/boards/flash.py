@@ -172,12 +172,20 @@ def flash(
     else:
         proofs = [run_step(step) for step in STEPS[chosen](tools, board, image)]
         proof = " ".join(filter(None, proofs))
-    write_json(report, {
-        "board": name, "tool": chosen, "verified": proof,
-        "elf_sha256": sha256_of(image.elf), "binary_sha256": sha256_of(image.binary),
-    })  # fmt: skip
-    return f"flash: {name}: {image.binary.stat().st_size} bytes at 0x{image.address:08x} written " \
-           f"with {chosen} and verified ({proof})."  # fmt: skip
+    write_json(
+        report,
+        {
+            "board": name,
+            "tool": chosen,
+            "verified": proof,
+            "elf_sha256": sha256_of(image.elf),
+            "binary_sha256": sha256_of(image.binary),
+        },
+    )
+    return (
+        f"flash: {name}: {image.binary.stat().st_size} bytes at 0x{image.address:08x} written "
+        f"with {chosen} and verified ({proof})."
+    )
 
 
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
@@ -186,8 +194,13 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     parser.add_argument("board", help="the board, a folder of bsp")
     parser.add_argument("--tool", default="", help="openocd, pyocd, st-flash or px4")
     parser.add_argument("--port", default="", help="serial port of the boot loader (px4)")
-    parser.add_argument("--wait", type=float, default=30.0, metavar="SECONDS",
-                        help="how long to look for the boot loader (px4)")  # fmt: skip
+    parser.add_argument(
+        "--wait",
+        type=float,
+        default=30.0,
+        metavar="SECONDS",
+        help="how long to look for the boot loader (px4)",
+    )
     options = parser.parse_args(arguments)
 
     def work() -> int:

@@ -27,8 +27,10 @@ class Check:
 def check_sections(board: Board, contents: Contents) -> Iterator[Check]:
     """Every section lies within one region, and so do its bytes in the image."""
     for section in contents.sections:
-        for what, address, does in (("section", section.address, "lie in"),
-                                    ("load of", section.load, "are loaded into")):  # fmt: skip
+        for what, address, does in (
+            ("section", section.address, "lie in"),
+            ("load of", section.load, "are loaded into"),
+        ):
             if address is not None:
                 home = next((it.name for it in board.region if it.holds(address, section.size)), "")
                 wrong = "" if home else f"{section.size} bytes {does} no region"
@@ -52,11 +54,16 @@ def functions_of(
     wanted = set(source_files(place.code_of, root))
     names = {
         (item.name, item.file)
-        for source, made in own.items() if source in wanted
+        for source, made in own.items()
+        if source in wanted
         for item in made.functions
-    }  # fmt: skip
-    return [item for item in contents.functions if (item.name, item.file) in names
-            and not any(fnmatchcase(item.name, pattern) for pattern in place.but)]  # fmt: skip
+    }
+    return [
+        item
+        for item in contents.functions
+        if (item.name, item.file) in names
+        and not any(fnmatchcase(item.name, pattern) for pattern in place.but)
+    ]
 
 
 def placed(
@@ -101,9 +108,10 @@ def check_start(board: Board, contents: Contents) -> Iterator[Check]:
     wrong = "" if first == board.load_address else f"the image begins at 0x{first:08x}"
     yield Check("load address", board.load_address, "", wrong)
     code = [
-        item for item in contents.functions
+        item
+        for item in contents.functions
         if item.address == contents.entry & ~1 and contents.entry & 1
-    ]  # fmt: skip
+    ]
     yield Check("entry", contents.entry, "", "" if code else "is no Thumb function")
 
 

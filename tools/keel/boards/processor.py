@@ -9,8 +9,14 @@ from keel.install import Toolchain
 
 ITCM, FLASH, DTCM, SRAM, BACKUP = 0x0, 0x0800_0000, 0x2000_0000, 0x2002_0000, 0x4002_4000
 FACTORY = SYSTEM & ~0xFFF  # The page of the system memory that has the calibration.
-SIZES = {ITCM: 0x4000, FLASH: 0x20_0000, DTCM: 0x2_0000, SRAM: 0x6_0000, BACKUP: 0x1000,
-         FACTORY: 0x1000}  # fmt: skip
+SIZES = {
+    ITCM: 0x4000,
+    FLASH: 0x20_0000,
+    DTCM: 0x2_0000,
+    SRAM: 0x6_0000,
+    BACKUP: 0x1000,
+    FACTORY: 0x1000,
+}
 KEPT = (FLASH, BACKUP, FACTORY)  # Over a reset; the others are filled with noise.
 NOISE = b"\xa5\x5a\x3c\xc3"
 
@@ -40,8 +46,11 @@ class Processor:
         self.uc.mem_write(address, image)
         self.uc.mem_write(UID_PLACE, UID)
         self.uc.mem_write(SYSTEM, b"".join(it.to_bytes(2, "little") for it in CALIBRATION))
-        for start, end in ((0x4000_0000, BACKUP), (BACKUP + 0x1000, 0x4008_0000),
-                           (0xE000_0000, 0xE010_0000)):  # fmt: skip
+        for start, end in (
+            (0x4000_0000, BACKUP),
+            (BACKUP + 0x1000, 0x4008_0000),
+            (0xE000_0000, 0xE010_0000),
+        ):
             self.uc.mmio_map(start, end - start, self._read, start, self._write, start)
         u = unicorn
         guarded = u.UC_HOOK_MEM_READ | u.UC_HOOK_MEM_WRITE
@@ -132,11 +141,17 @@ class Processor:
         number, status, address = pending
         r = self.r
         if self.chip.exception:
-            raise ModelError(
-                f"exception {number} in the handler of {self.chip.exception}: lock-up"
-            )
-        names = (r.UC_ARM_REG_R0, r.UC_ARM_REG_R1, r.UC_ARM_REG_R2, r.UC_ARM_REG_R3,
-                 r.UC_ARM_REG_R12, r.UC_ARM_REG_LR, r.UC_ARM_REG_PC, r.UC_ARM_REG_CPSR)  # fmt: skip
+            raise ModelError(f"exception {number} in the handler of {self.chip.exception}: lock-up")
+        names = (
+            r.UC_ARM_REG_R0,
+            r.UC_ARM_REG_R1,
+            r.UC_ARM_REG_R2,
+            r.UC_ARM_REG_R3,
+            r.UC_ARM_REG_R12,
+            r.UC_ARM_REG_LR,
+            r.UC_ARM_REG_PC,
+            r.UC_ARM_REG_CPSR,
+        )
         values = [int(self.uc.reg_read(name)) & 0xFFFF_FFFF for name in names]
         values[7] |= 1 << 24
         sp = int(self.uc.reg_read(r.UC_ARM_REG_SP)) - 32 & ~7

@@ -14,8 +14,22 @@ GPIOA, RCC = 0x4002_0000, 0x4002_3800
 APB1ENR, APB2ENR, CFGR = RCC + 0x40, RCC + 0x44, RCC + 8
 # Offsets of a timer's registers.
 CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR, RCR, CCR1, BDTR = (
-    0, 4, 8, 0xC, 0x10, 0x14, 0x18, 0x1C, 0x20, 0x24, 0x28, 0x2C, 0x30, 0x34, 0x44,
-)  # fmt: skip
+    0,
+    4,
+    8,
+    0xC,
+    0x10,
+    0x14,
+    0x18,
+    0x1C,
+    0x20,
+    0x24,
+    0x28,
+    0x2C,
+    0x30,
+    0x34,
+    0x44,
+)
 PWM_1 = 6  # The mode of a channel: high while the counter is below the compare value.
 
 FLOATS, LOW, HIGH, OTHER = "floats", "low", "high", "other"
@@ -91,8 +105,9 @@ class Timer:
             return OTHER
         if not self.active[channel]:
             return LOW
-        return Pulse(round(self.active[channel] * self.tick_us(words), 3),
-                     round(self.period_us(words), 3))  # fmt: skip
+        return Pulse(
+            round(self.active[channel] * self.tick_us(words), 3), round(self.period_us(words), 3)
+        )
 
 
 def timers() -> dict[str, Timer]:
@@ -133,9 +148,12 @@ class Outputs:
         return self.timers[name].state(words, int(channel) - 1)
 
     def note(
-        self, time_us: float, words: Mapping[int, int], high: set[tuple[int, int]],
+        self,
+        time_us: float,
+        words: Mapping[int, int],
+        high: set[tuple[int, int]],
         at_period: bool = False,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Writes down what has changed; only a new period begins pulses."""
         for number, log in enumerate(self.log):
             now = self.state(words, high, number)

@@ -148,8 +148,9 @@ class BootLoader:
         self.port.timeout = seconds
         data = self.port.read(count)
         if len(data) != count:
-            raise Px4Error(f"the boot loader does not answer: {len(data)} of {count} bytes in "
-                           f"{seconds:g} s")  # fmt: skip
+            raise Px4Error(
+                f"the boot loader does not answer: {len(data)} of {count} bytes in {seconds:g} s"
+            )
         return data
 
     def command(self, words: Sequence[int], count: int = 0, seconds: float = ANSWER_S) -> bytes:
@@ -178,8 +179,10 @@ class BootLoader:
         """Whether the image may be written; the size of the flash."""
         revision = self.device(REVISION)
         if revision not in REVISIONS:
-            raise Px4Error(f"the boot loader speaks revision {revision} of its protocol; "
-                           f"{REVISIONS[0]} to {REVISIONS[-1]} are known")  # fmt: skip
+            raise Px4Error(
+                f"the boot loader speaks revision {revision} of its protocol; "
+                f"{REVISIONS[0]} to {REVISIONS[-1]} are known"
+            )
         board = self.device(BOARD_ID)
         if board != container.board_id:
             raise Px4Error(f"the board's id is {board}, the image is for {container.board_id}")
@@ -208,8 +211,10 @@ class BootLoader:
         answer: int = struct.unpack("<I", self.command([GET_CRC], 4, CRC_S))[0]
         wanted = checksum(container.padded, size)
         if answer != wanted:
-            raise Px4Error(f"the flash does not hold the image: its checksum is 0x{answer:08x}, "
-                           f"not 0x{wanted:08x}")  # fmt: skip
+            raise Px4Error(
+                f"the flash does not hold the image: its checksum is 0x{answer:08x}, "
+                f"not 0x{wanted:08x}"
+            )
         try:
             self.command([BOOT])
         except (Px4Error, OSError):
@@ -294,8 +299,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if options.command == "pack":
             container = Container(options.board_id, options.image.read_bytes())
             container.write(options.output)
-            print(f"px4: {options.output}, {len(container.image)} bytes for board "
-                  f"{options.board_id}")  # fmt: skip
+            print(
+                f"px4: {options.output}, {len(container.image)} bytes for board {options.board_id}"
+            )
             return 0
         tools = Toolchain()
         tools.ensure("flash-px4")

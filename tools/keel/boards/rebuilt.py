@@ -15,9 +15,7 @@ SOURCES = ("bsp", "examples", "include", "src")
 COMPARED = ("keel.elf", "keel.bin")
 
 
-def differences(
-    tools: Toolchain, root: Path, name: str, folder: Path, work: Path
-) -> Iterator[str]:
+def differences(tools: Toolchain, root: Path, name: str, folder: Path, work: Path) -> Iterator[str]:
     """The files of a board's image in `folder` that are not the same when its source lies in a
     folder below `work`."""
     tools.ensure("firmware", say=lambda _: None)

@@ -133,8 +133,9 @@ def read_metapac(root: Path, name: str) -> Metapac:
         {name: int(value.replace("_", ""), 16) for name, value in bases},
         {name: int(number) for number, name in interrupts},
         [(name, int(address, 16), int(size)) for name, address, size in regions],
-        set(), set(),
-    )  # fmt: skip
+        set(),
+        set(),
+    )
     text = read_text(root / "src/chips" / included)
     for part in re.split(r"^    Peripheral \{$", text, flags=re.MULTILINE)[1:]:
         metapac_peripheral(root, text, re.sub(r"\s+", " ", part), found)
@@ -175,8 +176,10 @@ class Databases:
         self.ral = read_ral(ral)
         self.packages = {board: read_metapac(metapac, chip) for board, chip in CHIPS.items()}
         self.metapac = self.packages[FIRST]
-        self.interrupts = {"stm32ral": ral_interrupts(ral),
-                           "stm32-metapac": self.metapac.interrupts}  # fmt: skip
+        self.interrupts = {
+            "stm32ral": ral_interrupts(ral),
+            "stm32-metapac": self.metapac.interrupts,
+        }
 
     def find(self, fact: Fact, called: Callable[[str], str], owners: Sequence[str]) -> Answers:
         """What each database says; a field is looked for in every peripheral of `owners`."""
@@ -205,9 +208,11 @@ class Databases:
     def find_register(self, fact: Fact, wanted: str, owner: Instance | None) -> Answers:
         """A register, whichever peripheral the database puts it in."""
         there = [
-            name for instance in self.ral.values() for name, offset in instance.offsets.items()
+            name
+            for instance in self.ral.values()
+            for name, offset in instance.offsets.items()
             if instance.base + offset == fact.values[0]
-        ]  # fmt: skip
+        ]
         if wanted in there:
             yield "stm32ral", fact.values
         elif there:

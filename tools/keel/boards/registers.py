@@ -123,8 +123,15 @@ class Comparison:
     def check(self, fact: Fact, found: list[tuple[str, tuple[int, ...]]], excused: bool) -> None:
         """Compare a fact with what the databases say."""
         shown = " ".join(f"{value:#x}" for value in fact.values)
-        self.facts.append({"fact": fact.name, "of": fact.block, "kind": fact.kind, "value": shown,
-                           "databases": [database for database, _ in found]})  # fmt: skip
+        self.facts.append(
+            {
+                "fact": fact.name,
+                "of": fact.block,
+                "kind": fact.kind,
+                "value": shown,
+                "databases": [database for database, _ in found],
+            }
+        )
         for database, values in found:
             self.compared[fact.kind] = self.compared.get(fact.kind, 0) + 1
             if values != fact.values:
@@ -222,16 +229,22 @@ def compare(tools: Toolchain, root: Path, databases: Databases) -> Comparison:
 
 def conclude(root: Path, result: Comparison) -> int:
     """Write the report, print the differences; the exit status."""
-    content = {"compared": result.compared, "without_counterpart": result.excused,
-               "differences": result.differences, "facts": result.facts}  # fmt: skip
+    content = {
+        "compared": result.compared,
+        "without_counterpart": result.excused,
+        "differences": result.differences,
+        "facts": result.facts,
+    }
     write_json(root / REPORT, content)
     for line in result.differences:
         print(line)
     kinds = ", ".join(f"{count} of {kind}" for kind, count in sorted(result.compared.items()))
     total = sum(result.compared.values())
-    print(f"registers: {len(result.facts)} facts, {total} comparisons ({kinds}), "
-          f"{len(result.excused)} without a counterpart (reasons in {EXCEPTIONS}), "
-          f"{len(result.differences)} differences")  # fmt: skip
+    print(
+        f"registers: {len(result.facts)} facts, {total} comparisons ({kinds}), "
+        f"{len(result.excused)} without a counterpart (reasons in {EXCEPTIONS}), "
+        f"{len(result.differences)} differences"
+    )
     return 1 if result.differences else 0
 
 

@@ -14,8 +14,8 @@ COMPILED_AS_PROVED = {
     "-std=c99": "the language that Frama-C and CBMC read",
     "-ffreestanding": "the headers that the proofs read, and no meaning for names of the library",
     "-ffp-contract=off": "a fused multiplication and addition rounds once, where the proofs and "
-                         "the host round twice",
-}  # fmt: skip
+    "the host round twice",
+}
 
 REASSOCIATES = "changes floating-point results"
 LAYOUT = "gives types another size or layout than the proofs"

@@ -45,10 +45,14 @@ def pin_of(text: str) -> tuple[int, int]:
 
 def stated(text: str) -> tuple[list[str], list[str]]:
     """The outputs and the levels of a pin table."""
-    outputs = [f"P{port}{number} {timer}_{channel}"
-               for port, number, timer, channel in OUTPUT_LINE.findall(text)]  # fmt: skip
-    levels = [f"P{port}{number} {'high' if high == 'true' else 'low'}"
-              for port, number, high in LEVEL_LINE.findall(text)]  # fmt: skip
+    outputs = [
+        f"P{port}{number} {timer}_{channel}"
+        for port, number, timer, channel in OUTPUT_LINE.findall(text)
+    ]
+    levels = [
+        f"P{port}{number} {'high' if high == 'true' else 'low'}"
+        for port, number, high in LEVEL_LINE.findall(text)
+    ]
     return outputs, levels
 
 
@@ -69,11 +73,14 @@ def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
         if mounted != [board.mounting]:
             wrong.append(f"{where}: mounting {mounted}; {SOCKETS} has {board.mounting}")
         if outputs != board.outputs:
-            wrong.append(f"{where}: outputs {', '.join(outputs)}; {SOCKETS} has "
-                         f"{', '.join(board.outputs)}")  # fmt: skip
+            wrong.append(
+                f"{where}: outputs {', '.join(outputs)}; {SOCKETS} has {', '.join(board.outputs)}"
+            )
         if sorted(levels) != sorted(board.levels):
-            wrong.append(f"{where}: levels {', '.join(sorted(levels))}; {SOCKETS} has "
-                         f"{', '.join(sorted(board.levels))}")  # fmt: skip
+            wrong.append(
+                f"{where}: levels {', '.join(sorted(levels))}; {SOCKETS} has "
+                f"{', '.join(sorted(board.levels))}"
+            )
         yield where, len(outputs) + len(levels) + len(mounted), wrong
     for name in known:
         yield SOCKETS, 0, [f"{SOCKETS}: {name}: there is no bsp/{name}/pins.c"]

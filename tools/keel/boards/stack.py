@@ -100,12 +100,14 @@ def measure(tools: Toolchain, root: Path, board: str) -> dict[str, object]:
             stack.name: {"size": stack.size, "bound": stack.bytes, "path": list(stack.path)}
             for stack in stacks
         },
-        "tasks": {name: {"bound": path.bytes, "path": list(path.functions)}
-                  for name, path in tasks.items()},
+        "tasks": {
+            name: {"bound": path.bytes, "path": list(path.functions)}
+            for name, path in tasks.items()
+        },
         "frames_from_instructions": library,
         "painted": painted(root, board, image.elf),
         "functions": len({id(item) for item in code.values()}),  # Some have two names.
-    }  # fmt: skip
+    }
 
 
 def conclude(report: Mapping[str, object], root: Path) -> int:
@@ -116,8 +118,10 @@ def conclude(report: Mapping[str, object], root: Path) -> int:
     for name, task in tasks.items():
         print(f"  task {name:<28} {task['bound']:6d} bytes")
     for name, stack in stacks.items():
-        print(f"  stack {name:<27} {stack['bound']:6d} of {stack['size']} bytes: "
-              f"{' > '.join(item.rpartition(':')[2] for item in stack['path'])}")  # fmt: skip
+        print(
+            f"  stack {name:<27} {stack['bound']:6d} of {stack['size']} bytes: "
+            f"{' > '.join(item.rpartition(':')[2] for item in stack['path'])}"
+        )
     short = [name for name, stack in stacks.items() if stack["bound"] > stack["size"]]
     verdict = f"TOO LITTLE ROOM: {', '.join(short)}" if short else "every stack has room"
     deepest = report.get("painted")
@@ -130,8 +134,10 @@ def conclude(report: Mapping[str, object], root: Path) -> int:
             short.append("main")
             verdict = "THE BOUND IS WRONG: the painted stack was deeper"
     write_report(root / REPORT / f"{report['board']}.json", report, root, good=not short)
-    print(f"stack: {report['functions']} functions of {report['board']}, {len(tasks)} bodies of "
-          f"tasks: {verdict}.")  # fmt: skip
+    print(
+        f"stack: {report['functions']} functions of {report['board']}, {len(tasks)} bodies of "
+        f"tasks: {verdict}."
+    )
     return 1 if short else 0
 
 

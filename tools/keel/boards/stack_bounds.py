@@ -128,11 +128,14 @@ def check_reached(
     """
     names = {graph[title].name for title in reached}
     seen = {id(item) for name, item in code.items() if name in names}
-    missing = sorted(name for name, item in code.items()
-                     if id(item) not in seen and name in compiled)  # fmt: skip
+    missing = sorted(
+        name for name, item in code.items() if id(item) not in seen and name in compiled
+    )
     if missing:
-        raise StackError(f"in the image, but nobody calls them: {', '.join(missing)}; a call "
-                         f"through a pointer or an entry is missing in {TABLE}")  # fmt: skip
+        raise StackError(
+            f"in the image, but nobody calls them: {', '.join(missing)}; a call "
+            f"through a pointer or an entry is missing in {TABLE}"
+        )
 
 
 def idle_code(
@@ -177,9 +180,10 @@ def analyse(
         extra = EXCEPTION_FRAME_B if name == "main" else 0
         found = [
             Stack(name, size, entry.bytes + path.bytes + extra, path.functions)
-            for entry in table.entry if entry.stack == name and entry.function in graph
+            for entry in table.entry
+            if entry.stack == name and entry.function in graph
             for path in [bounds.of(entry.function)]
-        ]  # fmt: skip
+        ]
         if not found:
             raise StackError(f"{TABLE} names no entry of this image on the stack {name}")
         stacks.append(max(found, key=lambda stack: stack.bytes))

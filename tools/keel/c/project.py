@@ -128,8 +128,10 @@ def include_folders(root: Path) -> list[Path]:
 
 def include_options(root: Path) -> list[str]:
     """The same for a compiler that runs in the project's folder."""
-    return [f"-I{os.path.relpath(path, root) if path.is_relative_to(root) else path}"
-            for path in include_folders(root)]  # fmt: skip
+    return [
+        f"-I{os.path.relpath(path, root) if path.is_relative_to(root) else path}"
+        for path in include_folders(root)
+    ]
 
 
 def shown(path: Path, root: Path) -> str:

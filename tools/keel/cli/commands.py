@@ -89,11 +89,7 @@ def start_with(group: str, program: Sequence[str]) -> int:
     except ToolchainError as error:
         print(f"{group}: {error}", file=sys.stderr)
         return CANNOT
-    variables = {
-        **os.environ,
-        "PYTHONPATH": os.pathsep.join([*packages, str(TOOLS)]),
-        READY: group,
-    }
+    variables = {**os.environ, "PYTHONPATH": os.pathsep.join([*packages, str(TOOLS)]), READY: group}
     os.execve(sys.executable, [sys.executable, *program], variables)
 
 

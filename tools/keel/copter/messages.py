@@ -31,72 +31,194 @@ DEFINITIONS = ("minimal", "standard", "common", "development")
 LEFT_OUT = FOLDER / "mavlink_messages.xml"
 
 SENT = (
-    "HEARTBEAT", "SYS_STATUS", "PING", "PARAM_VALUE", "GPS_RAW_INT", "ATTITUDE",
-    "LOCAL_POSITION_NED", "GLOBAL_POSITION_INT", "SERVO_OUTPUT_RAW", "RC_CHANNELS", "COMMAND_ACK",
-    "TIMESYNC", "BATTERY_STATUS", "AUTOPILOT_VERSION", "ESTIMATOR_STATUS", "HOME_POSITION",
-    "EXTENDED_SYS_STATE", "STATUSTEXT", "SCALED_IMU", "SCALED_IMU2", "SCALED_IMU3",
-    "NAMED_VALUE_INT", "SCALED_PRESSURE", "PARAM_ERROR", "AVAILABLE_MODES", "CURRENT_MODE",
-    "SYSTEM_TIME", "ATTITUDE_QUATERNION", "VFR_HUD", "ALTITUDE", "PROTOCOL_VERSION",
-    "COMPONENT_METADATA", "MISSION_COUNT", "MISSION_ACK", "LOG_ENTRY", "LOG_DATA",
-    "FILE_TRANSFER_PROTOCOL", "FENCE_STATUS", "SERIAL_CONTROL",
-)  # fmt: skip
+    "HEARTBEAT",
+    "SYS_STATUS",
+    "PING",
+    "PARAM_VALUE",
+    "GPS_RAW_INT",
+    "ATTITUDE",
+    "LOCAL_POSITION_NED",
+    "GLOBAL_POSITION_INT",
+    "SERVO_OUTPUT_RAW",
+    "RC_CHANNELS",
+    "COMMAND_ACK",
+    "TIMESYNC",
+    "BATTERY_STATUS",
+    "AUTOPILOT_VERSION",
+    "ESTIMATOR_STATUS",
+    "HOME_POSITION",
+    "EXTENDED_SYS_STATE",
+    "STATUSTEXT",
+    "SCALED_IMU",
+    "SCALED_IMU2",
+    "SCALED_IMU3",
+    "NAMED_VALUE_INT",
+    "SCALED_PRESSURE",
+    "PARAM_ERROR",
+    "AVAILABLE_MODES",
+    "CURRENT_MODE",
+    "SYSTEM_TIME",
+    "ATTITUDE_QUATERNION",
+    "VFR_HUD",
+    "ALTITUDE",
+    "PROTOCOL_VERSION",
+    "COMPONENT_METADATA",
+    "MISSION_COUNT",
+    "MISSION_ACK",
+    "LOG_ENTRY",
+    "LOG_DATA",
+    "FILE_TRANSFER_PROTOCOL",
+    "FENCE_STATUS",
+    "SERIAL_CONTROL",
+)
 TAKEN = (
-    "PING", "SET_MODE", "PARAM_REQUEST_READ", "PARAM_REQUEST_LIST", "PARAM_SET", "COMMAND_INT",
-    "COMMAND_LONG", "TIMESYNC",
-    "MISSION_REQUEST_LIST", "MISSION_REQUEST_PARTIAL_LIST", "MISSION_REQUEST",
-    "MISSION_REQUEST_INT", "MISSION_COUNT", "MISSION_WRITE_PARTIAL_LIST", "MISSION_ITEM",
-    "MISSION_ITEM_INT", "MISSION_CLEAR_ALL", "MISSION_SET_CURRENT", "LOG_REQUEST_LIST",
-    "LOG_REQUEST_DATA", "LOG_ERASE", "FILE_TRANSFER_PROTOCOL", "SERIAL_CONTROL",
-)  # fmt: skip
+    "PING",
+    "SET_MODE",
+    "PARAM_REQUEST_READ",
+    "PARAM_REQUEST_LIST",
+    "PARAM_SET",
+    "COMMAND_INT",
+    "COMMAND_LONG",
+    "TIMESYNC",
+    "MISSION_REQUEST_LIST",
+    "MISSION_REQUEST_PARTIAL_LIST",
+    "MISSION_REQUEST",
+    "MISSION_REQUEST_INT",
+    "MISSION_COUNT",
+    "MISSION_WRITE_PARTIAL_LIST",
+    "MISSION_ITEM",
+    "MISSION_ITEM_INT",
+    "MISSION_CLEAR_ALL",
+    "MISSION_SET_CURRENT",
+    "LOG_REQUEST_LIST",
+    "LOG_REQUEST_DATA",
+    "LOG_ERASE",
+    "FILE_TRANSFER_PROTOCOL",
+    "SERIAL_CONTROL",
+)
 CONSTANTS = (
-    "MAV_TYPE_QUADROTOR", "MAV_AUTOPILOT_GENERIC", "MAV_COMP_ID_AUTOPILOT1",
-    "MAV_MODE_FLAG_CUSTOM_MODE_ENABLED", "MAV_MODE_FLAG_SAFETY_ARMED",
-    "MAV_MODE_FLAG_MANUAL_INPUT_ENABLED", "MAV_MODE_FLAG_STABILIZE_ENABLED",
+    "MAV_TYPE_QUADROTOR",
+    "MAV_AUTOPILOT_GENERIC",
+    "MAV_COMP_ID_AUTOPILOT1",
+    "MAV_MODE_FLAG_CUSTOM_MODE_ENABLED",
+    "MAV_MODE_FLAG_SAFETY_ARMED",
+    "MAV_MODE_FLAG_MANUAL_INPUT_ENABLED",
+    "MAV_MODE_FLAG_STABILIZE_ENABLED",
     "MAV_MODE_FLAG_AUTO_ENABLED",
-    "MAV_STATE_BOOT", "MAV_STATE_CALIBRATING", "MAV_STATE_STANDBY", "MAV_STATE_ACTIVE",
-    "MAV_STATE_CRITICAL", "MAV_STATE_FLIGHT_TERMINATION",
-    "MAV_SYS_STATUS_SENSOR_3D_GYRO", "MAV_SYS_STATUS_SENSOR_3D_ACCEL",
-    "MAV_SYS_STATUS_SENSOR_3D_MAG", "MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE",
-    "MAV_SYS_STATUS_SENSOR_GPS", "MAV_SYS_STATUS_SENSOR_RC_RECEIVER",
-    "MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS", "MAV_SYS_STATUS_SENSOR_BATTERY",
-    "MAV_SYS_STATUS_GEOFENCE", "MAV_SYS_STATUS_PREARM_CHECK",
-    "MAV_RESULT_ACCEPTED", "MAV_RESULT_TEMPORARILY_REJECTED", "MAV_RESULT_DENIED",
-    "MAV_RESULT_UNSUPPORTED", "MAV_RESULT_FAILED", "MAV_RESULT_IN_PROGRESS",
-    "MAV_CMD_DO_SET_MODE", "MAV_CMD_COMPONENT_ARM_DISARM", "MAV_CMD_SET_MESSAGE_INTERVAL",
-    "MAV_CMD_REQUEST_MESSAGE", "MAV_CMD_NAV_LOITER_UNLIM", "MAV_CMD_NAV_RETURN_TO_LAUNCH",
-    "MAV_CMD_NAV_LAND", "MAV_CMD_NAV_TAKEOFF", "MAV_CMD_DO_SET_STANDARD_MODE",
+    "MAV_STATE_BOOT",
+    "MAV_STATE_CALIBRATING",
+    "MAV_STATE_STANDBY",
+    "MAV_STATE_ACTIVE",
+    "MAV_STATE_CRITICAL",
+    "MAV_STATE_FLIGHT_TERMINATION",
+    "MAV_SYS_STATUS_SENSOR_3D_GYRO",
+    "MAV_SYS_STATUS_SENSOR_3D_ACCEL",
+    "MAV_SYS_STATUS_SENSOR_3D_MAG",
+    "MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE",
+    "MAV_SYS_STATUS_SENSOR_GPS",
+    "MAV_SYS_STATUS_SENSOR_RC_RECEIVER",
+    "MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS",
+    "MAV_SYS_STATUS_SENSOR_BATTERY",
+    "MAV_SYS_STATUS_GEOFENCE",
+    "MAV_SYS_STATUS_PREARM_CHECK",
+    "MAV_RESULT_ACCEPTED",
+    "MAV_RESULT_TEMPORARILY_REJECTED",
+    "MAV_RESULT_DENIED",
+    "MAV_RESULT_UNSUPPORTED",
+    "MAV_RESULT_FAILED",
+    "MAV_RESULT_IN_PROGRESS",
+    "MAV_CMD_DO_SET_MODE",
+    "MAV_CMD_COMPONENT_ARM_DISARM",
+    "MAV_CMD_SET_MESSAGE_INTERVAL",
+    "MAV_CMD_REQUEST_MESSAGE",
+    "MAV_CMD_NAV_LOITER_UNLIM",
+    "MAV_CMD_NAV_RETURN_TO_LAUNCH",
+    "MAV_CMD_NAV_LAND",
+    "MAV_CMD_NAV_TAKEOFF",
+    "MAV_CMD_DO_SET_STANDARD_MODE",
     "MAV_CMD_PREFLIGHT_CALIBRATION",
     "MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN",
-    "MAV_STANDARD_MODE_NON_STANDARD", "MAV_STANDARD_MODE_POSITION_HOLD",
-    "MAV_STANDARD_MODE_ALTITUDE_HOLD", "MAV_STANDARD_MODE_SAFE_RECOVERY",
-    "MAV_STANDARD_MODE_LAND", "MAV_MODE_PROPERTY_ADVANCED",
-    "MAV_MODE_PROPERTY_NOT_USER_SELECTABLE", "REBOOT_SHUTDOWN_ACTION_REBOOT",
-    "MAV_PARAM_TYPE_REAL32", "MAV_PARAM_ERROR_DOES_NOT_EXIST", "MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE",
+    "MAV_STANDARD_MODE_NON_STANDARD",
+    "MAV_STANDARD_MODE_POSITION_HOLD",
+    "MAV_STANDARD_MODE_ALTITUDE_HOLD",
+    "MAV_STANDARD_MODE_SAFE_RECOVERY",
+    "MAV_STANDARD_MODE_LAND",
+    "MAV_MODE_PROPERTY_ADVANCED",
+    "MAV_MODE_PROPERTY_NOT_USER_SELECTABLE",
+    "REBOOT_SHUTDOWN_ACTION_REBOOT",
+    "MAV_PARAM_TYPE_REAL32",
+    "MAV_PARAM_ERROR_DOES_NOT_EXIST",
+    "MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE",
     "MAV_PARAM_ERROR_PERMISSION_DENIED",
-    "MAV_SEVERITY_CRITICAL", "MAV_SEVERITY_WARNING", "MAV_SEVERITY_INFO",
-    "MAV_LANDED_STATE_ON_GROUND", "MAV_LANDED_STATE_IN_AIR", "MAV_LANDED_STATE_LANDING",
-    "MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE", "MAV_PROTOCOL_CAPABILITY_MAVLINK2",
-    "ESTIMATOR_ATTITUDE", "ESTIMATOR_VELOCITY_HORIZ", "ESTIMATOR_VELOCITY_VERT",
-    "ESTIMATOR_POS_HORIZ_REL", "ESTIMATOR_POS_HORIZ_ABS", "ESTIMATOR_POS_VERT_ABS",
-    "GPS_FIX_TYPE_NO_FIX", "GPS_FIX_TYPE_3D_FIX",
-    "MAV_BATTERY_FUNCTION_ALL", "MAV_BATTERY_TYPE_LIPO", "MAV_BATTERY_CHARGE_STATE_UNDEFINED",
-    "MAV_BATTERY_CHARGE_STATE_OK", "MAV_BATTERY_CHARGE_STATE_LOW",
+    "MAV_SEVERITY_CRITICAL",
+    "MAV_SEVERITY_WARNING",
+    "MAV_SEVERITY_INFO",
+    "MAV_LANDED_STATE_ON_GROUND",
+    "MAV_LANDED_STATE_IN_AIR",
+    "MAV_LANDED_STATE_LANDING",
+    "MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE",
+    "MAV_PROTOCOL_CAPABILITY_MAVLINK2",
+    "ESTIMATOR_ATTITUDE",
+    "ESTIMATOR_VELOCITY_HORIZ",
+    "ESTIMATOR_VELOCITY_VERT",
+    "ESTIMATOR_POS_HORIZ_REL",
+    "ESTIMATOR_POS_HORIZ_ABS",
+    "ESTIMATOR_POS_VERT_ABS",
+    "GPS_FIX_TYPE_NO_FIX",
+    "GPS_FIX_TYPE_3D_FIX",
+    "MAV_BATTERY_FUNCTION_ALL",
+    "MAV_BATTERY_TYPE_LIPO",
+    "MAV_BATTERY_CHARGE_STATE_UNDEFINED",
+    "MAV_BATTERY_CHARGE_STATE_OK",
+    "MAV_BATTERY_CHARGE_STATE_LOW",
     "MAV_BATTERY_CHARGE_STATE_CRITICAL",
-    "MAV_PROTOCOL_CAPABILITY_FTP", "MAV_PROTOCOL_CAPABILITY_MISSION_INT",
-    "MAV_MISSION_TYPE_RALLY", "MAV_MISSION_TYPE_ALL", "MAV_MISSION_ACCEPTED",
-    "MAV_MISSION_UNSUPPORTED", "MAV_MISSION_INVALID_SEQUENCE",
-    "MAV_FTP_OPCODE_NONE", "MAV_FTP_OPCODE_TERMINATESESSION", "MAV_FTP_OPCODE_RESETSESSION",
-    "MAV_FTP_OPCODE_LISTDIRECTORY", "MAV_FTP_OPCODE_OPENFILERO", "MAV_FTP_OPCODE_READFILE",
-    "MAV_FTP_OPCODE_CREATEFILE", "MAV_FTP_OPCODE_RENAME", "MAV_FTP_OPCODE_CALCFILECRC",
-    "MAV_FTP_OPCODE_BURSTREADFILE", "MAV_FTP_OPCODE_ACK", "MAV_FTP_OPCODE_NAK",
-    "MAV_FTP_ERR_NONE", "MAV_FTP_ERR_INVALIDDATASIZE", "MAV_FTP_ERR_INVALIDSESSION",
-    "MAV_FTP_ERR_EOF", "MAV_FTP_ERR_UNKNOWNCOMMAND", "MAV_FTP_ERR_FILEPROTECTED",
+    "MAV_PROTOCOL_CAPABILITY_FTP",
+    "MAV_PROTOCOL_CAPABILITY_MISSION_INT",
+    "MAV_MISSION_TYPE_RALLY",
+    "MAV_MISSION_TYPE_ALL",
+    "MAV_MISSION_ACCEPTED",
+    "MAV_MISSION_UNSUPPORTED",
+    "MAV_MISSION_INVALID_SEQUENCE",
+    "MAV_FTP_OPCODE_NONE",
+    "MAV_FTP_OPCODE_TERMINATESESSION",
+    "MAV_FTP_OPCODE_RESETSESSION",
+    "MAV_FTP_OPCODE_LISTDIRECTORY",
+    "MAV_FTP_OPCODE_OPENFILERO",
+    "MAV_FTP_OPCODE_READFILE",
+    "MAV_FTP_OPCODE_CREATEFILE",
+    "MAV_FTP_OPCODE_RENAME",
+    "MAV_FTP_OPCODE_CALCFILECRC",
+    "MAV_FTP_OPCODE_BURSTREADFILE",
+    "MAV_FTP_OPCODE_ACK",
+    "MAV_FTP_OPCODE_NAK",
+    "MAV_FTP_ERR_NONE",
+    "MAV_FTP_ERR_INVALIDDATASIZE",
+    "MAV_FTP_ERR_INVALIDSESSION",
+    "MAV_FTP_ERR_EOF",
+    "MAV_FTP_ERR_UNKNOWNCOMMAND",
+    "MAV_FTP_ERR_FILEPROTECTED",
     "MAV_FTP_ERR_FILENOTFOUND",
-    "FENCE_BREACH_NONE", "FENCE_BREACH_MINALT", "FENCE_BREACH_MAXALT", "FENCE_BREACH_BOUNDARY",
-    "SERIAL_CONTROL_DEV_SHELL", "SERIAL_CONTROL_FLAG_REPLY", "SERIAL_CONTROL_FLAG_RESPOND",
-)  # fmt: skip
-BYTES = {"char": 1, "int8_t": 1, "uint8_t": 1, "int16_t": 2, "uint16_t": 2, "int32_t": 4,
-         "uint32_t": 4, "float": 4, "int64_t": 8, "uint64_t": 8, "double": 8}  # fmt: skip
+    "FENCE_BREACH_NONE",
+    "FENCE_BREACH_MINALT",
+    "FENCE_BREACH_MAXALT",
+    "FENCE_BREACH_BOUNDARY",
+    "SERIAL_CONTROL_DEV_SHELL",
+    "SERIAL_CONTROL_FLAG_REPLY",
+    "SERIAL_CONTROL_FLAG_RESPOND",
+)
+BYTES = {
+    "char": 1,
+    "int8_t": 1,
+    "uint8_t": 1,
+    "int16_t": 2,
+    "uint16_t": 2,
+    "int32_t": 4,
+    "uint32_t": 4,
+    "float": 4,
+    "int64_t": 8,
+    "uint64_t": 8,
+    "double": 8,
+}
 NOTE = "/* Generated by `make messages` from MAVLink's definitions; do not edit. */"
 
 
@@ -169,10 +291,12 @@ def message_of(node: ET.Element) -> Message:
         extended = extended or child.tag == "extensions"
         if child.tag == "field":
             fields.append(field_of(child, extended))
-    base = sorted((one for one in fields if not one.is_extension),
-                  key=lambda one: -BYTES[one.type])  # fmt: skip
-    return Message(node.attrib["name"], int(node.attrib["id"]),
-                   base + [one for one in fields if one.is_extension])  # fmt: skip
+    base = sorted((one for one in fields if not one.is_extension), key=lambda one: -BYTES[one.type])
+    return Message(
+        node.attrib["name"],
+        int(node.attrib["id"]),
+        base + [one for one in fields if one.is_extension],
+    )
 
 
 def definitions() -> Path:
@@ -255,40 +379,70 @@ def accesses(message: Message, packs: bool) -> Iterator[str]:
 def signature(message: Message, packs: bool) -> str:
     """Of the packer, or the unpacker."""
     if packs:
-        return (f"void {message.stem}_pack(const {message.stem}_t *from,\n"
-                f"    uint8_t payload[MESSAGE_{message.name}_LENGTH])")  # fmt: skip
-    return (f"void {message.stem}_unpack({message.stem}_t *to,\n"
-            f"    const uint8_t payload[MESSAGE_{message.name}_LENGTH])")  # fmt: skip
+        return (
+            f"void {message.stem}_pack(const {message.stem}_t *from,\n"
+            f"    uint8_t payload[MESSAGE_{message.name}_LENGTH])"
+        )
+    return (
+        f"void {message.stem}_unpack({message.stem}_t *to,\n"
+        f"    const uint8_t payload[MESSAGE_{message.name}_LENGTH])"
+    )
 
 
-def header(all_of: list[Message], sent: list[Message], taken: list[Message],
-           constants: dict[str, int]) -> str:  # fmt: skip
+def header(
+    all_of: list[Message], sent: list[Message], taken: list[Message], constants: dict[str, int]
+) -> str:
     """mavlink_messages.h."""
     lines = [
-        "/* SPDX-License-Identifier: Apache-2.0 */", "/**", " * @file mavlink_messages.h",
-        " * @brief The messages of MAVLink that the copter sends and takes.", " *",
+        "/* SPDX-License-Identifier: Apache-2.0 */",
+        "/**",
+        " * @file mavlink_messages.h",
+        " * @brief The messages of MAVLink that the copter sends and takes.",
+        " *",
         " * Fields stand as on the wire: the largest types first, extensions behind them. Packers",
-        " * and unpackers are for payloads of their full length, little-endian.", " *",
-        " * Generated by `make messages` from MAVLink's definitions; do not edit.", " */",
-        "#ifndef COPTER_MAVLINK_MESSAGES_H", "#define COPTER_MAVLINK_MESSAGES_H", "",
-        '#include "keel/middleware/mavlink.h"', "", "#include <stdint.h>", "",
-        "/** @name Numbers of MAVLink. */", "/** @{ */",
-    ]  # fmt: skip
+        " * and unpackers are for payloads of their full length, little-endian.",
+        " *",
+        " * Generated by `make messages` from MAVLink's definitions; do not edit.",
+        " */",
+        "#ifndef COPTER_MAVLINK_MESSAGES_H",
+        "#define COPTER_MAVLINK_MESSAGES_H",
+        "",
+        '#include "keel/middleware/mavlink.h"',
+        "",
+        "#include <stdint.h>",
+        "",
+        "/** @name Numbers of MAVLink. */",
+        "/** @{ */",
+    ]
     lines += [f"#define {name} {constants[name]}u" for name in CONSTANTS]
-    lines += ["/** @} */", "", "/** @name Messages: their numbers, and bytes of all fields. */",
-              "/** @{ */"]  # fmt: skip
+    lines += [
+        "/** @} */",
+        "",
+        "/** @name Messages: their numbers, and bytes of all fields. */",
+        "/** @{ */",
+    ]
     for message in all_of:
-        lines += [f"#define MESSAGE_{message.name} {message.id}u",
-                  f"#define MESSAGE_{message.name}_LENGTH {message.length}u"]  # fmt: skip
-    lines += ["/** @} */", "", "/** Messages that are sent. */",
-              f"#define MESSAGES_SENT {len(sent)}u",
-              "extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];", "",
-              "/** Messages that are taken, from senders who know more fields too. */",
-              f"#define MESSAGES_TAKEN {len(taken)}u",
-              "extern const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN];", "",
-              "/** The places in messages_sent. */", "typedef enum message_sent {",
-              ",\n".join(f"    SENT_{message.name}" for message in sent), "} message_sent_t;",
-              ""]  # fmt: skip
+        lines += [
+            f"#define MESSAGE_{message.name} {message.id}u",
+            f"#define MESSAGE_{message.name}_LENGTH {message.length}u",
+        ]
+    lines += [
+        "/** @} */",
+        "",
+        "/** Messages that are sent. */",
+        f"#define MESSAGES_SENT {len(sent)}u",
+        "extern const keel_mavlink_message_t messages_sent[MESSAGES_SENT];",
+        "",
+        "/** Messages that are taken, from senders who know more fields too. */",
+        f"#define MESSAGES_TAKEN {len(taken)}u",
+        "extern const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN];",
+        "",
+        "/** The places in messages_sent. */",
+        "typedef enum message_sent {",
+        ",\n".join(f"    SENT_{message.name}" for message in sent),
+        "} message_sent_t;",
+        "",
+    ]
     for message in all_of:
         lines += declaration(message)
     lines += ["/** @name Payloads. */", "/** @{ */"]
@@ -399,14 +553,24 @@ static float get_float(const uint8_t from[4])
 
 def source(sent: list[Message], taken: list[Message]) -> str:
     """mavlink_messages.c."""
-    lines = ["/* SPDX-License-Identifier: Apache-2.0 */", NOTE, '#include "mavlink_messages.h"', "",
-             "#include <string.h>", "",
-             "const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {"]  # fmt: skip
-    lines += [f"    {{MESSAGE_{one.name}, {one.crc_extra}u, 1u, MESSAGE_{one.name}_LENGTH}},"
-              for one in sent]  # fmt: skip
+    lines = [
+        "/* SPDX-License-Identifier: Apache-2.0 */",
+        NOTE,
+        '#include "mavlink_messages.h"',
+        "",
+        "#include <string.h>",
+        "",
+        "const keel_mavlink_message_t messages_sent[MESSAGES_SENT] = {",
+    ]
+    lines += [
+        f"    {{MESSAGE_{one.name}, {one.crc_extra}u, 1u, MESSAGE_{one.name}_LENGTH}},"
+        for one in sent
+    ]
     lines += ["};", "", "const keel_mavlink_message_t messages_taken[MESSAGES_TAKEN] = {"]
-    lines += [f"    {{MESSAGE_{one.name}, {one.crc_extra}u, 1u, KEEL_MAVLINK_PAYLOAD_MAX}},"
-              for one in taken]  # fmt: skip
+    lines += [
+        f"    {{MESSAGE_{one.name}, {one.crc_extra}u, 1u, KEEL_MAVLINK_PAYLOAD_MAX}},"
+        for one in taken
+    ]
     lines += ["};", HELPERS]
     for messages, packs in ((sent, True), (taken, False)):
         for message in messages:
@@ -419,8 +583,10 @@ def written() -> dict[Path, str]:
     known, constants = read(definitions())
     sent, taken = chosen(known, SENT), chosen(known, TAKEN)
     all_of = chosen(known, sorted({*SENT, *TAKEN}))
-    return {FOLDER / "mavlink_messages.h": header(all_of, sent, taken, constants),
-            FOLDER / "mavlink_messages.c": source(sent, taken)}  # fmt: skip
+    return {
+        FOLDER / "mavlink_messages.h": header(all_of, sent, taken, constants),
+        FOLDER / "mavlink_messages.c": source(sent, taken),
+    }
 
 
 def laid_out(text: str, tools: Toolchain) -> str:

@@ -241,13 +241,15 @@ def assignments(one: Parameter, index: int) -> Iterator[str]:
 def code(file: File, source: str) -> tuple[str, str]:
     """The header and the source."""
     words = {
-        "name": file.name, "upper": file.name.upper(), "source": source,
+        "name": file.name,
+        "upper": file.name.upper(),
+        "source": source,
         "count": len(file.parameters),
         "rows": "\n".join(row(one) for one in file.parameters),
         "assignments": "\n".join(
             line for index, one in enumerate(file.parameters) for line in assignments(one, index)
         ),
-    }  # fmt: skip
+    }
     return HEADER.format(**words), CODE.format(**words)
 
 
@@ -286,21 +288,26 @@ is meant. All clients agree on a float, so whole numbers are sent as one, and a 
 def page(file: File, source: str) -> str:
     """The page of the documentation."""
     lines = [
-        "# Parameters", "",
+        "# Parameters",
+        "",
         f"These can be set without compiling again: {len(file.parameters)} parameters of",
         f"`examples/{file.name}`. This page, the C table and the metadata for ground stations are",
-        f"made from `{source}` by `make tables`.", "",
-        *PAGE.splitlines(), "",
-    ]  # fmt: skip
+        f"made from `{source}` by `make tables`.",
+        "",
+        *PAGE.splitlines(),
+        "",
+    ]
     for group in file.group:
         lines += [f"## {group.name}", ""]
         lines += ["| name | default | range | unit | in force | |", "|---|---|---|---|---|---|"]
         for one in group.parameter:
             low, high = (shown(number, one.type) for number in one.bounds)
             span = "on, off" if one.type == "bool" else f"{low} to {high}"
-            lines.append(f"| `{one.name}` | {shown(one.default, one.type)} | {span} |"
-                         f" {one.unit or ''} | {'restart' if one.restart else 'at once'} |"
-                         f" {one.description} |")  # fmt: skip
+            lines.append(
+                f"| `{one.name}` | {shown(one.default, one.type)} | {span} |"
+                f" {one.unit or ''} | {'restart' if one.restart else 'at once'} |"
+                f" {one.description} |"
+            )
         lines.append("")
     return "\n".join(lines)
 
@@ -335,8 +342,10 @@ def metadata(file: File) -> str:
             if one.type != "float":
                 entry["increment"] = 1
             if one.type == "bool":
-                entry["values"] = [{"value": 0, "description": "off"},
-                                   {"value": 1, "description": "on"}]  # fmt: skip
+                entry["values"] = [
+                    {"value": 0, "description": "off"},
+                    {"value": 1, "description": "on"},
+                ]
             entries.append(entry)
     return json.dumps({"version": 1, "parameters": entries}, indent=2) + "\n"
 
@@ -373,16 +382,21 @@ def compact(data: object) -> bytes:
 def component_files(file: File) -> dict[str, bytes]:
     """The files by their names, the one first that names the other."""
     parameters = compact(json.loads(metadata(file)))
-    entry = {"type": PARAMETER_METADATA, "uri": "mftp://[;comp=1]/parameters.json",
-             "fileCrc": crc32(parameters)}  # fmt: skip
+    entry = {
+        "type": PARAMETER_METADATA,
+        "uri": "mftp://[;comp=1]/parameters.json",
+        "fileCrc": crc32(parameters),
+    }
     general = compact({"version": 1, "metadataTypes": [entry]})
     return {"general.json": general, "parameters.json": parameters}
 
 
 def byte_array(name: str, data: bytes) -> str:
     """An array of C."""
-    lines = [", ".join(f"0x{byte:02X}" for byte in data[start : start + BYTES_IN_LINE])
-             for start in range(0, len(data), BYTES_IN_LINE)]  # fmt: skip
+    lines = [
+        ", ".join(f"0x{byte:02X}" for byte in data[start : start + BYTES_IN_LINE])
+        for start in range(0, len(data), BYTES_IN_LINE)
+    ]
     body = ",\n    ".join(lines)
     return f"static const uint8_t {name}[{len(data)}] = {{\n    {body}}};"
 
@@ -391,8 +405,11 @@ def embedded(file: File, source: str) -> str:
     """The files in C."""
     made = component_files(file)
     names = {name: name.partition(".")[0] for name in made}
-    rows = [f'    {{"{name}", "F{name}\\t{len(data)}", {names[name]}, {len(data)}u,'
-            f" 0x{crc32(data):08X}u}}," for name, data in made.items()]  # fmt: skip
+    rows = [
+        f'    {{"{name}", "F{name}\\t{len(data)}", {names[name]}, {len(data)}u,'
+        f" 0x{crc32(data):08X}u}},"
+        for name, data in made.items()
+    ]
     arrays = [byte_array(names[name], data) for name, data in made.items()]
     return FILES.format(source=source, arrays="\n\n".join(arrays), rows="\n".join(rows))
 
@@ -423,10 +440,11 @@ def main(arguments: list[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 2
     stale = [
-        path for path, text in made.items()
+        path
+        for path, text in made.items()
         if not (options.root / path).is_file()
         or (options.root / path).read_text(encoding="utf-8") != text
-    ]  # fmt: skip
+    ]
     if options.check:
         for path in stale:
             print(f"{path}: is not what {SOURCE} makes; `make tables` does", file=sys.stderr)

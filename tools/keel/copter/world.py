@@ -65,10 +65,12 @@ def wmm() -> Model:
 def rows(model: Model) -> list[list[tuple[int, ...]]]:
     """The table's numbers."""
     return [
-        [tuple(round(part / UNIT_NT) for part in model(latitude, longitude))
-         for longitude in LONGITUDES]
+        [
+            tuple(round(part / UNIT_NT) for part in model(latitude, longitude))
+            for longitude in LONGITUDES
+        ]
         for latitude in LATITUDES
-    ]  # fmt: skip
+    ]
 
 
 def text_of(table: Sequence[Sequence[Sequence[int]]]) -> str:

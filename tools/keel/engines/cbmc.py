@@ -28,12 +28,22 @@ from keel.judge.harness import Harness
 from keel.judge.wrong_bodies import WrongBody
 
 CHECKS = (
-    "--unwinding-assertions", "--bounds-check", "--pointer-check", "--pointer-overflow-check",
-    "--pointer-primitive-check", "--div-by-zero-check", "--float-div-by-zero-check",
-    "--signed-overflow-check", "--unsigned-overflow-check", "--conversion-check",
-    "--undefined-shift-check", "--float-overflow-check", "--nan-check", "--enum-range-check",
+    "--unwinding-assertions",
+    "--bounds-check",
+    "--pointer-check",
+    "--pointer-overflow-check",
+    "--pointer-primitive-check",
+    "--div-by-zero-check",
+    "--float-div-by-zero-check",
+    "--signed-overflow-check",
+    "--unsigned-overflow-check",
+    "--conversion-check",
+    "--undefined-shift-check",
+    "--float-overflow-check",
+    "--nan-check",
+    "--enum-range-check",
     "--drop-unused-functions",
-)  # fmt: skip
+)
 # What a harness that checks assertions alone is checked for.
 ASSERTIONS = ("--no-standard-checks", "--unwinding-assertions", "--drop-unused-functions")
 # Leaves out of the formula the assignments on which nothing that is asked depends: it saves time,
@@ -73,9 +83,14 @@ class Cbmc:
     """CBMC and its compiler for the target."""
 
     def __init__(
-        self, goto_cc: Sequence[str], cbmc: Sequence[str], runner: Runner, root: Path,
-        scratch: Path, defines: Sequence[str] = (),
-    ) -> None:  # fmt: skip
+        self,
+        goto_cc: Sequence[str],
+        cbmc: Sequence[str],
+        runner: Runner,
+        root: Path,
+        scratch: Path,
+        defines: Sequence[str] = (),
+    ) -> None:
         """Take what is to be started, and the sizes that the build chooses, as -DNAME=NUMBER."""
         self._defines = tuple(defines)
         self._goto_cc = list(goto_cc)
@@ -101,9 +116,11 @@ class Cbmc:
         harness = replace(self.sized(harness), timeout=harness.timeout * room)
         problems = harnesses.text_problems(harness)
         result = Result(
-            problems=problems, defines=list(harness.defines), replaces=list(harness.replaces),
+            problems=problems,
+            defines=list(harness.defines),
+            replaces=list(harness.replaces),
             checks="assertions" if harness.assertions_only else "all",
-        )  # fmt: skip
+        )
         binary, complaint = self.build(harness, harness.name)
         if complaint:
             result.problems.append(complaint)
@@ -115,8 +132,10 @@ class Cbmc:
             if not answer.gave_up:
                 self._measure(harness, binary, result)
         shown = harness.path.relative_to(self._root)
-        result.problems = [f"{shown}: {text}" if not text.startswith(str(shown)) else text
-                           for text in result.problems]  # fmt: skip
+        result.problems = [
+            f"{shown}: {text}" if not text.startswith(str(shown)) else text
+            for text in result.problems
+        ]
         result.seconds = round(time.monotonic() - start, 1)
         return result
 
@@ -150,7 +169,7 @@ class Cbmc:
 
     def counterexample(
         self, harness: Harness, wrong: WrongBody | None, expect: Sequence[str]
-    ) -> tuple[Answer, str]:  # fmt: skip
+    ) -> tuple[Answer, str]:
         """An execution in which an assertion fails that contains an expected text, or any check.
 
         The answer has its trace, or says that there is none; the text is a compiler's complaint.
@@ -169,6 +188,7 @@ class Cbmc:
 
         A harness's assertions have the same names whatever body it is linked with; checks do not.
         """
+
         def listed() -> str:
             command = [*self._cbmc, str(binary), "--json-ui", "--show-properties"]
             command += checks_of(harness)

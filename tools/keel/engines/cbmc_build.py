@@ -20,9 +20,7 @@ from keel.judge.wrong_bodies import WrongBody
 class Builder:
     """The compiler for CBMC. Harnesses share what is compiled of the same text in the same way."""
 
-    def __init__(
-        self, goto_cc: Sequence[str], runner: Runner, root: Path, scratch: Path
-    ) -> None:
+    def __init__(self, goto_cc: Sequence[str], runner: Runner, root: Path, scratch: Path) -> None:
         self._goto_cc = list(goto_cc)
         self._runner = runner
         self._root = root
@@ -93,8 +91,11 @@ class Builder:
         """The binary with calls of stand-ins in the place of those of the replaced functions."""
         replaced = binary.with_name("replaced.gb")
         instrument = str(Path(self._goto_cc[0]).with_name("goto-instrument"))
-        calls = [word for name in harness.replaces
-                 for word in ("--replace-calls", f"{name}:{name}_stand_in")]  # fmt: skip
+        calls = [
+            word
+            for name in harness.replaces
+            for word in ("--replace-calls", f"{name}:{name}_stand_in")
+        ]
         done = self._runner.run([instrument, *calls, str(binary), str(replaced)])
         if done.status != 0 or "warning" in done.output.lower():
             return replaced, f"goto-instrument: {done.output.strip()}"

@@ -39,9 +39,17 @@ class Modules:
         packages = ["-package", "zarith,ocamlgraph,why3"]
         included = ["-I", library, "-I", f"{library}/plugins"]
         done = self._runner.run(
-            [*self._ocamlfind, "ocamlopt", "-shared", *packages, *included, "-o", str(module),
-             str(own)]
-        )  # fmt: skip
+            [
+                *self._ocamlfind,
+                "ocamlopt",
+                "-shared",
+                *packages,
+                *included,
+                "-o",
+                str(module),
+                str(own),
+            ]
+        )
         if done.status != 0:
             raise ProjectError(f"{script.name}: {done.output.strip()}")
         return str(module)

@@ -103,9 +103,14 @@ def read_statement(path: Path) -> Statement:
     only = properties[0]
     definitions = {match[1]: " ".join(match[2].split()) for match in DEFINITION.finditer(code)}
     return Statement(
-        path, directives, definitions, _bounds(path, only[1]), _bounds(path, only[2]),
-        code[: only.start(2) - len("->")], code[only.end() :],
-    )  # fmt: skip
+        path,
+        directives,
+        definitions,
+        _bounds(path, only[1]),
+        _bounds(path, only[2]),
+        code[: only.start(2) - len("->")],
+        code[only.end() :],
+    )
 
 
 def _factors(names: tuple[str, ...]) -> str:
@@ -148,13 +153,21 @@ def tie_problems(statement: Statement, root: Path) -> list[str]:
             continue
         expected, roundings = formulas(body)
         stated = [statement.definitions.get(name, "") for name in statement.goals]
-        problems += [f"{function} leads to {text}, which no goal bounds"
-                     for text in expected if text not in stated]  # fmt: skip
-        problems += [f"{text or 'a goal without formula'} does not follow from {function}"
-                     for text in stated if text not in expected]  # fmt: skip
+        problems += [
+            f"{function} leads to {text}, which no goal bounds"
+            for text in expected
+            if text not in stated
+        ]
+        problems += [
+            f"{text or 'a goal without formula'} does not follow from {function}"
+            for text in stated
+            if text not in expected
+        ]
         if statement.hypotheses != dict.fromkeys(roundings, UNIT_ROUNDOFF):
-            problems.append(f"the hypotheses are not that each rounding of {function} is at most"
-                            f" 2^-24: {', '.join(sorted(roundings))}")  # fmt: skip
+            problems.append(
+                f"the hypotheses are not that each rounding of {function} is at most"
+                f" 2^-24: {', '.join(sorted(roundings))}"
+            )
     return problems
 
 
@@ -192,8 +205,14 @@ class Gappa:
             upper = enclosures(done.output).get(name)
             proved = upper is not None and upper <= bound and done.status == 0
             shown = "no enclosure" if upper is None else f"{float(upper):.9g}"
-            goals.append({"name": name, "bound": f"{float(bound):.9g}", "enclosure": shown,
-                          "status": "Valid" if proved else "Unknown"})  # fmt: skip
+            goals.append(
+                {
+                    "name": name,
+                    "bound": f"{float(bound):.9g}",
+                    "enclosure": shown,
+                    "status": "Valid" if proved else "Unknown",
+                }
+            )
         return goals
 
     def prove(self, path: Path) -> Result:

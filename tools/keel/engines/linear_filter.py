@@ -75,9 +75,11 @@ def undefined(declaration: str) -> str | None:
         names = [name.strip(" ,:") for name in PARAMETER.findall(parameters)]
         bound = "".join(f"forall {one}. " for one in SEPARATE.split(parameters))
         holds = f"{found['name']}({', '.join(names)})"
-        kept += [f"axiom {found['name']}_{number} : ({bound}({holds} -> {part}))\n\n"
-                 for number, part in enumerate(conjuncts(declaration[found.end() :]))
-                 if not is_nonlinear(part)]  # fmt: skip
+        kept += [
+            f"axiom {found['name']}_{number} : ({bound}({holds} -> {part}))\n\n"
+            for number, part in enumerate(conjuncts(declaration[found.end() :]))
+            if not is_nonlinear(part)
+        ]
     return "".join(kept)
 
 

@@ -32,11 +32,13 @@ OWN = Path(__file__).resolve().parent
 # What Frama-C loads: with all of its plugins each of hundreds of processes took 0.2 s more.
 PLUGINS = ("rtegen", "wp")
 CHECKS = (
-    "-warn-unsigned-overflow", "-warn-unsigned-downcast", "-warn-signed-downcast",
+    "-warn-unsigned-overflow",
+    "-warn-unsigned-downcast",
+    "-warn-signed-downcast",
     # Each call through a pointer has a `calls` annotation, whose goal says more than that the
     # pointer is some function: WP has no meaning for \valid_function.
     "-rte-no-pointer-call",
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)
@@ -113,10 +115,15 @@ class Wp:
     """Frama-C/WP for the target."""
 
     def __init__(
-        self, frama_c: Sequence[str], runner: Runner, root: Path, scratch: Path,
-        prover_cache: Path | None = None, ocamlfind: Sequence[str] = ("ocamlfind",),
+        self,
+        frama_c: Sequence[str],
+        runner: Runner,
+        root: Path,
+        scratch: Path,
+        prover_cache: Path | None = None,
+        ocamlfind: Sequence[str] = ("ocamlfind",),
         defines: Sequence[str] = (),
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Take what is to be started, and the sizes that the build chooses, as -DNAME=NUMBER."""
         self._defines = list(defines)
         self._frama_c = list(frama_c)
@@ -146,9 +153,14 @@ class Wp:
         return wplog.read_log(self._runner.run(command).output)
 
     def prove(
-        self, target: Target, stages: Sequence[Stage] = THOROUGH, smoke: bool = True,
-        allowed: Sequence[str] = (), recorded: Mapping[str, str] | None = None, room: int = 1,
-    ) -> Result:  # fmt: skip
+        self,
+        target: Target,
+        stages: Sequence[Stage] = THOROUGH,
+        smoke: bool = True,
+        allowed: Sequence[str] = (),
+        recorded: Mapping[str, str] | None = None,
+        room: int = 1,
+    ) -> Result:
         """Prove a target; `recorded` are the provers to ask first, by goal.
 
         All provers have `room` times their processor time.
@@ -164,9 +176,8 @@ class Wp:
         return result
 
     def _prove_lemmas(
-        self, target: Target, allowed: Sequence[str], recorded: Mapping[str, str],
-        room: int = 1,
-    ) -> Result | None:  # fmt: skip
+        self, target: Target, allowed: Sequence[str], recorded: Mapping[str, str], room: int = 1
+    ) -> Result | None:
         """Lemmas, each by the prover that is recorded for it; None if it is not for all of them."""
         groups: dict[str, list[str]] = {}
         for name in target.lemmas:
@@ -181,13 +192,19 @@ class Wp:
         return self._judged(target, self._words(target, passes, report), report, allowed, recorded)
 
     def _run(
-        self, target: Target, stages: Sequence[Stage], smoke: bool, allowed: Sequence[str],
-        recorded: Mapping[str, str], room: int = 1,
-    ) -> Result:  # fmt: skip
+        self,
+        target: Target,
+        stages: Sequence[Stage],
+        smoke: bool,
+        allowed: Sequence[str],
+        recorded: Mapping[str, str],
+        room: int = 1,
+    ) -> Result:
         report = self._report_of(target)
         if target.left is not None:
-            stages = [stage.of_all() if number == 0 else stage
-                      for number, stage in enumerate(stages)]  # fmt: skip
+            stages = [
+                stage.of_all() if number == 0 else stage for number, stage in enumerate(stages)
+            ]
         if PRUNED in _own_provers(target, recorded).values():
             stages = sorted(stages, key=lambda stage: not stage.pruning)
         file = self._recorded_file(target, recorded)
@@ -211,10 +228,15 @@ class Wp:
         return report
 
     def _judged(
-        self, target: Target, command: Sequence[str], report: Path, allowed: Sequence[str],
-        recorded: Mapping[str, str], pruned: frozenset[int] = frozenset(),
+        self,
+        target: Target,
+        command: Sequence[str],
+        report: Path,
+        allowed: Sequence[str],
+        recorded: Mapping[str, str],
+        pruned: frozenset[int] = frozenset(),
         extra: dict[str, str] | None = None,
-    ) -> Result:  # fmt: skip
+    ) -> Result:
         done = self._runner.run(command, extra=extra)
         self._drop_failures(target)
         written = report.read_text(encoding="utf-8") if report.is_file() else ""
@@ -269,9 +291,14 @@ class Wp:
         return output
 
     def command(
-        self, target: Target, stages: Sequence[Stage], smoke: bool, report: Path,
-        recorded: bool = False, room: int = 1,
-    ) -> list[str]:  # fmt: skip
+        self,
+        target: Target,
+        stages: Sequence[Stage],
+        smoke: bool,
+        report: Path,
+        recorded: bool = False,
+        room: int = 1,
+    ) -> list[str]:
         """One process; each stage takes up what the stages before it left open.
 
         Lemmas are not filtered by WP in that way; they get all provers in one stage, and have no
@@ -286,9 +313,13 @@ class Wp:
         return self._words(target, selected, report, scripts, room)
 
     def _words(
-        self, target: Target, passes: Sequence[tuple[Stage, list[str]]], report: Path,
-        scripts: Sequence[str] = (), room: int = 1,
-    ) -> list[str]:  # fmt: skip
+        self,
+        target: Target,
+        passes: Sequence[tuple[Stage, list[str]]],
+        report: Path,
+        scripts: Sequence[str] = (),
+        room: int = 1,
+    ) -> list[str]:
         """The command line of these passes, each over its selection of goals, after our scripts."""
         command = [*self._loaded(*scripts), self._shown(target.file)]
         command += self._cache_options(target)

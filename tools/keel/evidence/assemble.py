@@ -15,15 +15,35 @@ from keel.base.errors import ToolError
 from keel.evidence.part import Context, Item, Kind, Part, State
 
 # In the order of the package: from what was wanted to what was found, and what it rests on.
-PARTS = ("objectives", "plans", "requirements", "trace", "contracts", "formal", "strength", "tests",
-         "static", "object", "tools", "configuration", "safety")  # fmt: skip
+PARTS = (
+    "objectives",
+    "plans",
+    "requirements",
+    "trace",
+    "contracts",
+    "formal",
+    "strength",
+    "tests",
+    "static",
+    "object",
+    "tools",
+    "configuration",
+    "safety",
+)
 WORST: tuple[State, ...] = ("bad", "open", "good", "told")
 KINDS: tuple[str, ...] = get_args(Kind)
 REFERENCE = re.compile(rf"(?:{'|'.join(KINDS)}):\S+")
 
 # Those of a project that uses Keel.
-OWN_PARTS = ("requirements", "contracts", "proofs", "tests", "tasks", "constraints",
-             "configuration")  # fmt: skip
+OWN_PARTS = (
+    "requirements",
+    "contracts",
+    "proofs",
+    "tests",
+    "tasks",
+    "constraints",
+    "configuration",
+)
 PARTS_OF_BOTH = ("contracts", "configuration")
 
 Maker = Callable[[Context], Part]
@@ -109,8 +129,11 @@ def make_part(context: Context, name: str, find: Callable[[str], Maker]) -> tupl
     except Exception as error:  # A report with another content than its reader takes for granted.
         told = f"{name}: cannot be made: {type(error).__name__}: {error}"
         return Part(name=name, title=name), [told]
-    missing = [f"{name}: {file}: is missing: {path}" for file, path in sorted(part.files.items())
-               if not path.is_file()]  # fmt: skip
+    missing = [
+        f"{name}: {file}: is missing: {path}"
+        for file, path in sorted(part.files.items())
+        if not path.is_file()
+    ]
     strange = [f"{name}: the part calls itself {part.name}"] if part.name != name else []
     return part, [*(f"{name}: {text}" for text in part.problems), *strange, *missing]
 

@@ -27,8 +27,9 @@ def statement(
     """What is stated of the files with these digests; the tools are named with their versions."""
     return {
         "_type": STATEMENT,
-        "subject": [{"name": name, "digest": {"sha256": digest}}
-                    for name, digest in sorted(digests.items())],
+        "subject": [
+            {"name": name, "digest": {"sha256": digest}} for name, digest in sorted(digests.items())
+        ],
         "predicateType": PREDICATE,
         "predicate": {
             "buildDefinition": {
@@ -39,7 +40,7 @@ def statement(
             },
             "runDetails": {"builder": {"id": BUILD}},
         },
-    }  # fmt: skip
+    }
 
 
 def subjects(read: Mapping[str, Any]) -> dict[str, str]:

@@ -74,8 +74,9 @@ def versions() -> dict[str, str]:
 
 def refused(source: Source) -> list[str]:
     """A package is made of a commit."""
-    return [f"{name}: is not as the commit has it: commit it, or say --dirty"
-            for name in source.changed]  # fmt: skip
+    return [
+        f"{name}: is not as the commit has it: commit it, or say --dirty" for name in source.changed
+    ]
 
 
 def closing(problems: Sequence[str], done: str) -> int:
@@ -158,11 +159,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--dirty", action="store_true", help="also with uncommitted changes")
     parser.add_argument("--draft", type=Path, metavar="FOLDER", help="write one with its problems")
     parser.add_argument("--verify", type=Path, metavar="FOLDER", help="look at a package only")
-    parser.add_argument("--same", type=Path, nargs=2, metavar=("ONE", "OTHER"),
-                        help="do two packages of one source differ in measured seconds alone?")
+    parser.add_argument(
+        "--same",
+        type=Path,
+        nargs=2,
+        metavar=("ONE", "OTHER"),
+        help="do two packages of one source differ in measured seconds alone?",
+    )
     parser.add_argument("--out", type=Path, metavar="FOLDER", help="build/evidence unless said")
-    parser.add_argument("--project", type=Path, default=ROOT, metavar="FOLDER",
-                        help="a project that uses Keel, rather than Keel itself")  # fmt: skip
+    parser.add_argument(
+        "--project",
+        type=Path,
+        default=ROOT,
+        metavar="FOLDER",
+        help="a project that uses Keel, rather than Keel itself",
+    )
     options = parser.parse_args(arguments)
     root = options.project.resolve()
 

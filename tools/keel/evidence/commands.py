@@ -47,8 +47,10 @@ def commands_of(root: Path) -> tuple[Command, ...]:
     boards = board_names(root)
     return (
         Command(PROOFS, ("prove-all",)),
-        *(Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"), narrow=True)
-          for name in boards),
+        *(
+            Command(f"firmware/{name}/report.json", ("firmware", f"BOARD={name}"), narrow=True)
+            for name in boards
+        ),
         Command("test-target/report.json", ("test-target",)),
         Command("test/report.json", ("test-all",)),
         Command("coverage-target/report.json", ("coverage-target",)),
@@ -59,16 +61,17 @@ def commands_of(root: Path) -> tuple[Command, ...]:
         Command("lint/report.json", ("lint",), narrow=True),
         Command("bench/report.json", ("bench",), narrow=True),
         Command("opinion/report.json", ("opinion",), narrow=True),
-        *(Command(f"stack/{name}.json", ("stack", f"BOARD={name}"), narrow=True)
-          for name in boards),
-    )  # fmt: skip
+        *(
+            Command(f"stack/{name}.json", ("stack", f"BOARD={name}"), narrow=True)
+            for name in boards
+        ),
+    )
 
 
 def own_commands() -> tuple[Command, ...]:
     """Those of a project that uses Keel."""
     rules = ("-f", str(ROOT / "keel.mk"))
-    return (Command(PROOFS, (*rules, "prove")),
-            Command("test/report.json", (*rules, "test")))  # fmt: skip
+    return (Command(PROOFS, (*rules, "prove")), Command("test/report.json", (*rules, "test")))
 
 
 def handed_over(context: Context) -> list[str]:
@@ -92,8 +95,18 @@ Start = Callable[[Sequence[str], Path], Ended]
 
 def start_make(words: Sequence[str], root: Path) -> Ended:
     """Run make, without the variables of the make that may have started us."""
-    names = ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "ARGS", "UNIT", "BOARD", "PROJECT",
-             "KEEL_ARGS", "KEEL_UNIT", "KEEL_PROJECT")  # fmt: skip
+    names = (
+        "MAKEFLAGS",
+        "MAKELEVEL",
+        "MFLAGS",
+        "ARGS",
+        "UNIT",
+        "BOARD",
+        "PROJECT",
+        "KEEL_ARGS",
+        "KEEL_UNIT",
+        "KEEL_PROJECT",
+    )
     outside = dict.fromkeys(names, "")
     return run(["make", "--no-print-directory", *words], TIMEOUT_S, cwd=root, environment=outside)
 
@@ -125,8 +138,10 @@ def run_commands(
     context: Context, commands: Sequence[Command], start: Start = start_make
 ) -> list[str]:
     """Run what has to be run, with progress; gives what went wrong."""
-    places = {command: f"[{number}/{len(commands)}] {command.shown}"
-              for number, command in enumerate(commands, 1)}  # fmt: skip
+    places = {
+        command: f"[{number}/{len(commands)}] {command.shown}"
+        for number, command in enumerate(commands, 1)
+    }
 
     def ran(command: Command) -> str:
         return _run_one(context, command, places[command], start)

@@ -82,11 +82,16 @@ def manifest(made: Assembled, source: Source) -> dict[str, Any]:
         "not_as_committed": list(source.changed),
         "problems": made.problems,
         "parts": [
-            {"name": part.name, "title": part.title, "summary": part.summary,
-             "items": len(part.items), "json": f"{part.name}/part.json"}
+            {
+                "name": part.name,
+                "title": part.title,
+                "summary": part.summary,
+                "items": len(part.items),
+                "json": f"{part.name}/part.json",
+            }
             for part in made.parts
         ],
-    }  # fmt: skip
+    }
 
 
 def write_content(folder: Path, made: Assembled, source: Source) -> None:

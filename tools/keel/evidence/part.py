@@ -18,8 +18,23 @@ from pydantic import BaseModel, ConfigDict
 
 from keel.base.source import STAMP
 
-Kind = Literal["requirement", "function", "unit", "goal", "harness", "test", "mutant", "assumption",
-               "objective", "tool", "image", "file", "deviation", "constraint", "part"]  # fmt: skip
+Kind = Literal[
+    "requirement",
+    "function",
+    "unit",
+    "goal",
+    "harness",
+    "test",
+    "mutant",
+    "assumption",
+    "objective",
+    "tool",
+    "image",
+    "file",
+    "deviation",
+    "constraint",
+    "part",
+]
 State = Literal["good", "bad", "open", "told"]  # told: a fact that is neither, a limit for example
 
 

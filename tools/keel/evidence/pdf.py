@@ -67,8 +67,12 @@ class Paper(FPDF):
         """A table that goes on over pages; an item is named by its id alone."""
         self.set_font(FONT, size=7.5)
         shown = [tuple(shortened(text) for text in row) for row in (columns, *rows)]
-        layout = {"col_widths": widths(shown), "borders_layout": "HORIZONTAL_LINES",
-                  "line_height": 4, "padding": 0.8}  # fmt: skip
+        layout = {
+            "col_widths": widths(shown),
+            "borders_layout": "HORIZONTAL_LINES",
+            "line_height": 4,
+            "padding": 0.8,
+        }
         with self.table(headings_style=HEAD, text_align="LEFT", v_align="TOP", **layout) as grid:
             for row in shown:
                 line = grid.row()
@@ -83,8 +87,10 @@ def shortened(text: str) -> str:
 
 def widths(rows: Sequence[tuple[str, ...]]) -> tuple[int, ...]:
     """The columns' shares: by their longest lines, but a long one does not starve the others."""
-    longest = [max(len(line) for cell in column for line in (cell.splitlines() or [""]))
-               for column in zip(*rows, strict=True)]  # fmt: skip
+    longest = [
+        max(len(line) for cell in column for line in (cell.splitlines() or [""]))
+        for column in zip(*rows, strict=True)
+    ]
     return tuple(min(max(length, NARROW), WIDE) for length in longest)
 
 

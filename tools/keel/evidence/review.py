@@ -42,8 +42,13 @@ def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
 def sign(unit: Unit, person: str, remarks: str, today: str) -> None:
     """Add a signature on a unit."""
     path = unit.root / reviews.FILE
-    entry = {"unit": unit.name, "person": person, "date": today,
-             "digest": reviews.digest_of(unit), "remarks": remarks}  # fmt: skip
+    entry = {
+        "unit": unit.name,
+        "person": person,
+        "date": today,
+        "digest": reviews.digest_of(unit),
+        "remarks": remarks,
+    }
     lines = [f"{name} = {json.dumps(text, ensure_ascii=False)}" for name, text in entry.items()]
     write_text(path, "\n".join([read_text(path).rstrip(), "", "[[review]]", *lines, ""]))
 

@@ -30,9 +30,16 @@ from keel.install import Toolchain, small_environment
 def key_of(question: esbmc.Question, tool: str) -> str:
     """All that an answer depends on."""
     own = Path(esbmc.__file__).read_text("utf-8")
-    return digest({"opinion": tool, "own": own, "texts": esbmc.texts_of(question),
-                   "unwind": question.unwind, "defines": question.defines,
-                   "harness": question.harness.name})  # fmt: skip
+    return digest(
+        {
+            "opinion": tool,
+            "own": own,
+            "texts": esbmc.texts_of(question),
+            "unwind": question.unwind,
+            "defines": question.defines,
+            "harness": question.harness.name,
+        }
+    )
 
 
 def answer(question: esbmc.Question, asked: esbmc.Esbmc, cache: Cache, tool: str) -> dict[str, Any]:
@@ -92,7 +99,11 @@ def run(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     tool = tools.versions("opinion")["esbmc"]
     agreed = sum(opinion.good(one) for one in answers.values())
     good = agreed == len(answers)
-    write_report(report, {"esbmc": {"version": tool.version, "sha256": tool.sha256},
-                          "harnesses": answers}, root, good=good)  # fmt: skip
+    write_report(
+        report,
+        {"esbmc": {"version": tool.version, "sha256": tool.sha256}, "harnesses": answers},
+        root,
+        good=good,
+    )
     print(f"ESBMC agrees on {agreed} of {len(answers)} harnesses")
     return 0 if good else 1

@@ -33,9 +33,7 @@ def read_sums(path: Path) -> dict[str, str]:
     return found
 
 
-def differences(
-    stated: Mapping[str, str], found: Mapping[str, str], by: str
-) -> Iterator[str]:  # fmt: skip
+def differences(stated: Mapping[str, str], found: Mapping[str, str], by: str) -> Iterator[str]:
     """Each file that is not as it was stated to be."""
     for name in sorted({*stated, *found}):
         if name not in found:
@@ -93,8 +91,10 @@ def reproduced(one: Path, other: Path) -> list[str]:
         return [f"{other}: is of another source than {one}"]
     apart = (*measured.FILES, ATTESTATION, SUMS)
     found = [*differences(digests(one, apart), digests(other, apart), str(one))]
-    sums = [{**read_sums(folder / SUMS), **dict.fromkeys((*measured.FILES, ATTESTATION), "")}
-            for folder in (one, other)]  # fmt: skip
+    sums = [
+        {**read_sums(folder / SUMS), **dict.fromkeys((*measured.FILES, ATTESTATION), "")}
+        for folder in (one, other)
+    ]
     if sums[0] != sums[1] and not found:
         found.append(f"{SUMS}: states other digests than in {one}")
     if stated_in(one) != stated_in(other) and not found:

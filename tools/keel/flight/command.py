@@ -38,18 +38,32 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     """The command line."""
     parser = Parser("Fly the copter in plants that others wrote, and judge the flights.", "fly")
     parser.add_argument("--scenario", metavar="NAME", help="one of examples/copter/scenarios")
-    parser.add_argument("--scenarios", type=Path, default=scenario.FOLDER, metavar="FOLDER",
-                        help="where scenarios lie")  # fmt: skip
+    parser.add_argument(
+        "--scenarios",
+        type=Path,
+        default=scenario.FOLDER,
+        metavar="FOLDER",
+        help="where scenarios lie",
+    )
     parser.add_argument("--seed", type=int, metavar="N", help="a flight of make flights, again")
     parser.add_argument("--plant", choices=plants.NAMES, help="in this one only")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
-                        help="flights at a time")  # fmt: skip
-    parser.add_argument("--build", type=Path, default=BUILD, metavar="FOLDER",
-                        help="where the report and the pictures go")  # fmt: skip
+    parser.add_argument(
+        "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="flights at a time"
+    )
+    parser.add_argument(
+        "--build",
+        type=Path,
+        default=BUILD,
+        metavar="FOLDER",
+        help="where the report and the pictures go",
+    )
     parser.add_argument("--no-pictures", action="store_true")
     parser.add_argument("--logs", action="store_true", help="keep the log of every flight")
-    parser.add_argument("--trace", action="store_true",
-                        help="with the log, each run of each task, for Perfetto and as a page")
+    parser.add_argument(
+        "--trace",
+        action="store_true",
+        help="with the log, each run of each task, for Perfetto and as a page",
+    )
     found = parser.parse_args(arguments)
     if found.seed is not None and (found.scenario or found.plant):
         raise ToolError("--seed: says scenario and plant by itself")
@@ -77,8 +91,9 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
                 picture = None if options.no_pictures else options.build / f"{name}-{plant}.svg"
                 wanted = options.logs or options.scenario or options.trace
                 log = options.build / f"{name}-{plant}.ulg" if wanted else None
-                jobs.append(Job(name, Order(found, plant, found.seed), copter, picture, log,
-                                options.trace))  # fmt: skip
+                jobs.append(
+                    Job(name, Order(found, plant, found.seed), copter, picture, log, options.trace)
+                )
     if not jobs:
         raise ToolError(f"{options.scenario or 'no scenario'}: is not flown in {options.plant}")
     return jobs
@@ -113,8 +128,10 @@ def tell(outcomes: Sequence[Outcome], report: Path, one: bool) -> None:
     for line in bad:
         print(line)
     where = report.relative_to(ROOT) if report.is_relative_to(ROOT) else report
-    print(f"fly: {len(outcomes)} flights, {len(outcomes) - len(bad)} good, {len(bad)} not; "
-          f"{where} has them")  # fmt: skip
+    print(
+        f"fly: {len(outcomes)} flights, {len(outcomes) - len(bad)} good, {len(bad)} not; "
+        f"{where} has them"
+    )
 
 
 def fly(arguments: Sequence[str] | None) -> int:
@@ -125,11 +142,15 @@ def fly(arguments: Sequence[str] | None) -> int:
     report.unlink(missing_ok=True)  # What an older run found is not what this one finds.
     library.build(Toolchain(), options.build)
     outcomes = all_outcomes(jobs, options.jobs)
-    write_json(report, {
-        "schema": SCHEMA, "sources_sha256": library.digest_of(),
-        "good": all(outcome.good for outcome in outcomes),
-        "flights": [outcome.as_json() for outcome in outcomes],
-    })  # fmt: skip
+    write_json(
+        report,
+        {
+            "schema": SCHEMA,
+            "sources_sha256": library.digest_of(),
+            "good": all(outcome.good for outcome in outcomes),
+            "flights": [outcome.as_json() for outcome in outcomes],
+        },
+    )
     tell(outcomes, report, report_name(options) != "fly")
     for job in jobs:
         if job.trace and job.log:

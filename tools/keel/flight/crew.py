@@ -60,11 +60,17 @@ class Outcome:
     def as_json(self) -> dict[str, Any]:
         """For reports."""
         return {
-            "name": self.name, "plant": self.plant, "seed": self.seed, "good": self.good,
-            "expects_failure": self.expects_failure, "states": self.states,
-            "armed_after_s": self.armed_s, "sha256": self.digest, "measured": self.measured,
+            "name": self.name,
+            "plant": self.plant,
+            "seed": self.seed,
+            "good": self.good,
+            "expects_failure": self.expects_failure,
+            "states": self.states,
+            "armed_after_s": self.armed_s,
+            "sha256": self.digest,
+            "measured": self.measured,
             "limits": [finding.as_json() for finding in self.findings],
-        }  # fmt: skip
+        }
 
 
 def copter_of(library: Path) -> Copter:
@@ -86,18 +92,24 @@ def flown(job: Job) -> Outcome:
         title = f"{job.name} in {order.plant}"
         plots.plot_flight(title, order.scenario, trace, job.picture)
     return Outcome(
-        job.name, order.plant, order.seed,
-        judge.is_good(order.scenario, trace, findings), findings,
-        judge.measured(order.scenario, trace, unbroken), state_names(trace), trace.digest,
-        order.scenario.expects_failure, trace.armed_s,
-    )  # fmt: skip
+        job.name,
+        order.plant,
+        order.seed,
+        judge.is_good(order.scenario, trace, findings),
+        findings,
+        judge.measured(order.scenario, trace, unbroken),
+        state_names(trace),
+        trace.digest,
+        order.scenario.expects_failure,
+        trace.armed_s,
+    )
 
 
 def all_flown(jobs: Sequence[Job], width: int) -> Iterator[tuple[int, Outcome]]:
     """The outcomes as they come, each with the place of its job."""
     pool = ProcessPoolExecutor(
         width, mp_context=multiprocessing.get_context("spawn"), initializer=leave_ctrl_c
-    )  # fmt: skip
+    )
     try:
         futures = {pool.submit(flown, job): place for place, job in enumerate(jobs)}
         for future in as_completed(futures):

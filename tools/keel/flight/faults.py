@@ -18,8 +18,9 @@ DRIFT_MOST = 3.0  # rad/s
 
 def shaking_of(fault: Fault) -> Shaking:
     """The vibration of a fault."""
-    return Shaking(acceleration=fault.acceleration or 0.0, rate=fault.rate or 0.0,
-                   alike=bool(fault.alike))  # fmt: skip
+    return Shaking(
+        acceleration=fault.acceleration or 0.0, rate=fault.rate or 0.0, alike=bool(fault.alike)
+    )
 
 
 @dataclass
@@ -63,8 +64,11 @@ class Faults:
     def _set(self, fault: Fault, on: bool) -> None:
         """Begin or end a fault."""
         unit, broken = (fault.unit or 1) - 1, self.broken
-        sets = {"imu_freeze": broken.frozen, "imu_silent": broken.silent,
-                "imu_shout": broken.shouting}  # fmt: skip
+        sets = {
+            "imu_freeze": broken.frozen,
+            "imu_silent": broken.silent,
+            "imu_shout": broken.shouting,
+        }
         if fault.kind in sets:
             (sets[fault.kind].add if on else sets[fault.kind].discard)(unit)
         elif fault.kind == "imu_vibration":

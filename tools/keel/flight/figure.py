@@ -50,8 +50,13 @@ def draw(copter: Copter, path: Path) -> None:
         time = trace.column("time")
         shown = np.flatnonzero((time >= FROM_S) & (time <= TO_S))[::EVERY]
         width = 4.0 if colour == GREY else 1.2
-        roll.plot(time[shown], np.degrees(trace.column("roll")[shown]), color=colour,
-                  label=label, linewidth=width)  # fmt: skip
+        roll.plot(
+            time[shown],
+            np.degrees(trace.column("roll")[shown]),
+            color=colour,
+            label=label,
+            linewidth=width,
+        )
         height.plot(time[shown], trace.column("up")[shown], color=colour, linewidth=width)
     for axes in (roll, height):
         axes.axvline(fault_s, color=RED, linestyle="--", linewidth=0.8)
@@ -66,6 +71,7 @@ def draw(copter: Copter, path: Path) -> None:
 
 def main(_arguments: Sequence[str] | None = None) -> int:
     """Entry point."""
+
     def work() -> int:
         built = library.build(Toolchain(), BUILD)
         draw(Copter(built), PICTURE)

@@ -54,25 +54,32 @@ class JsbsimPlant:
         def readers(*names: str) -> list[Callable[[], float]]:
             return [node(name).get_double_value for name in names]
 
-        self._inertial = readers(*(f"sensor/imu/accel{axis}_true_mps2" for axis in "XYZ"),
-                                 *(f"sensor/imu/gyro{axis}_rps" for axis in "XYZ"))  # fmt: skip
+        self._inertial = readers(
+            *(f"sensor/imu/accel{axis}_true_mps2" for axis in "XYZ"),
+            *(f"sensor/imu/gyro{axis}_rps" for axis in "XYZ"),
+        )
         self._field = readers(*(f"sensor/imu/mag{axis}_nT" for axis in "XYZ"))
         (self._pressure,) = readers("sensor/baro/presStatic_true_Pa")
         self._place = readers("position/lat-geod-deg", "position/long-gc-deg", "position/h-sl-ft")
         self._speed = readers(*(f"velocities/v-{way}-fps" for way in ("north", "east", "down")))
         self._angles = readers("attitude/phi-rad", "attitude/theta-rad", "attitude/psi-rad")
         self._commands = [node(f"fcs/cmd{name}_ext_nd").set_double_value for name in COMMANDS]
-        self._wind = [node(f"atmosphere/wind-{way}-fps").set_double_value
-                      for way in ("north", "east", "down")]  # fmt: skip
+        self._wind = [
+            node(f"atmosphere/wind-{way}-fps").set_double_value for way in ("north", "east", "down")
+        ]
         self._run = self._fdm.run
         for _ in range(SETTLING):
             self._run()
 
     def _start(self, heading_deg: float) -> None:
         """Put it on the ground."""
-        conditions = {"ic/lat-geod-deg": HOME_LATITUDE, "ic/long-gc-deg": HOME_LONGITUDE,
-                      "ic/terrain-elevation-ft": HOME_ALTITUDE_M / FOOT,
-                      "ic/h-agl-ft": LEGS_M / FOOT, "ic/psi-true-deg": heading_deg}  # fmt: skip
+        conditions = {
+            "ic/lat-geod-deg": HOME_LATITUDE,
+            "ic/long-gc-deg": HOME_LONGITUDE,
+            "ic/terrain-elevation-ft": HOME_ALTITUDE_M / FOOT,
+            "ic/h-agl-ft": LEGS_M / FOOT,
+            "ic/psi-true-deg": heading_deg,
+        }
         for name, value in conditions.items():
             self._fdm.set_property_value(name, value)
         if not self._fdm.run_ic():
@@ -102,8 +109,11 @@ class JsbsimPlant:
         """From its geodetic position."""
         latitude, longitude, height = (read() for read in self._place)
         north, east, down = (FOOT * read() for read in self._speed)
-        place = (NORTH_M * (latitude - HOME_LATITUDE), EAST_M * (longitude - HOME_LONGITUDE),
-                 FOOT * height - HOME_ALTITUDE_M - LEGS_M)  # fmt: skip
+        place = (
+            NORTH_M * (latitude - HOME_LATITUDE),
+            EAST_M * (longitude - HOME_LONGITUDE),
+            FOOT * height - HOME_ALTITUDE_M - LEGS_M,
+        )
         roll, pitch, yaw = (read() for read in self._angles)
         return Truth(place, (north, east, -down), (roll, pitch, yaw), latitude, longitude)
 
@@ -165,9 +175,11 @@ def described(airframe: Airframe) -> Path:
 
 def scaled(source: Path, target: Path, before: str, factor: float) -> None:
     """A file with the number behind a text multiplied."""
-    text, count = re.subn(rf"({before}\s*)([-+.\deE]+)",
-                          lambda match: f"{match[1]}{float(match[2]) * factor!r}",
-                          source.read_text())  # fmt: skip
+    text, count = re.subn(
+        rf"({before}\s*)([-+.\deE]+)",
+        lambda match: f"{match[1]}{float(match[2]) * factor!r}",
+        source.read_text(),
+    )
     if count != 1:
         raise ToolError(f"{source.name} of JSBSim's F450 has {count} times {before}")
     target.write_text(text)

@@ -151,8 +151,13 @@ class Judge:
         """Runs that real-time tasks left out since the motors started."""
         before, after = self._trace.done
         skipped = after["skipped"].astype(int) - before["skipped"].astype(int)
-        return float(max(count for name, count in zip(self._trace.tasks, skipped, strict=True)
-                         if name in REAL_TIME))  # fmt: skip
+        return float(
+            max(
+                count
+                for name, count in zip(self._trace.tasks, skipped, strict=True)
+                if name in REAL_TIME
+            )
+        )
 
     def without_fault_deg(self) -> float:
         """Of roll and pitch, from the same flight unbroken."""
@@ -160,15 +165,32 @@ class Judge:
             return math.nan
         rows = min(len(self._trace.truth), len(self._unbroken.truth))
         inside = self._in[:rows]
-        return max(most(np.degrees(self._trace.column(name)[:rows] -
-                                   self._unbroken.column(name)[:rows])[inside])
-                   for name in ("roll", "pitch"))  # fmt: skip
+        return max(
+            most(
+                np.degrees(self._trace.column(name)[:rows] - self._unbroken.column(name)[:rows])[
+                    inside
+                ]
+            )
+            for name in ("roll", "pitch")
+        )
 
 
-METRICS = ("attitude_rms_deg", "attitude_max_deg", "heading_max_deg", "tracking_rms_deg",
-           "tilt_max_deg", "hold_rms_m", "hold_max_m", "away_max_m",
-           "place_max_m", "height_max_m",
-           "height_error_max_m", "sink_max", "skipped_max", "without_fault_deg")  # fmt: skip
+METRICS = (
+    "attitude_rms_deg",
+    "attitude_max_deg",
+    "heading_max_deg",
+    "tracking_rms_deg",
+    "tilt_max_deg",
+    "hold_rms_m",
+    "hold_max_m",
+    "away_max_m",
+    "place_max_m",
+    "height_max_m",
+    "height_error_max_m",
+    "sink_max",
+    "skipped_max",
+    "without_fault_deg",
+)
 
 
 def judged(scenario: Scenario, trace: Trace, unbroken: Trace | None) -> list[Finding]:
@@ -177,9 +199,12 @@ def judged(scenario: Scenario, trace: Trace, unbroken: Trace | None) -> list[Fin
         return [Finding("flown", trace.problem, "to its end", False)]
     if trace.crash:
         return [Finding("flown", trace.crash, "without a crash", False)]
-    return [*numbers(scenario.limits, Judge(scenario, trace, unbroken)),
-            *stayed(scenario.limits, trace), *reached(scenario.limits.reach, trace),
-            *ended(scenario, trace)]  # fmt: skip
+    return [
+        *numbers(scenario.limits, Judge(scenario, trace, unbroken)),
+        *stayed(scenario.limits, trace),
+        *reached(scenario.limits.reach, trace),
+        *ended(scenario, trace),
+    ]
 
 
 def numbers(limits: Limits, judge: Judge) -> Iterator[Finding]:

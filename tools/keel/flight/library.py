@@ -26,21 +26,40 @@ from keel.install import Toolchain
 SIM = "examples/copter_in_plant/sim.h"
 MODE = "include/keel/flight/mode.h"
 SETTINGS = "examples/copter/settings.h"
-FLAGS = ("-std=c99", "-O2", "-fPIC", "-ffp-contract=off", "-Wall", "-Wextra", "-Iinclude", "-Ibsp",
-         "-Iexamples/urpilot", "-Iexamples/copter", "-Iexamples/copter_in_plant")  # fmt: skip
-SOURCES = ("src", "examples/urpilot/urpilot_tasks.c", "bsp/common/slots.c",
-           "bsp/common/task_table.c", "bsp/common/trace.c", "bsp/common/trace_log.c",
-           "bsp/host/host_board.c")  # fmt: skip
+FLAGS = (
+    "-std=c99",
+    "-O2",
+    "-fPIC",
+    "-ffp-contract=off",
+    "-Wall",
+    "-Wextra",
+    "-Iinclude",
+    "-Ibsp",
+    "-Iexamples/urpilot",
+    "-Iexamples/copter",
+    "-Iexamples/copter_in_plant",
+)
+SOURCES = (
+    "src",
+    "examples/urpilot/urpilot_tasks.c",
+    "bsp/common/slots.c",
+    "bsp/common/task_table.c",
+    "bsp/common/trace.c",
+    "bsp/common/trace_log.c",
+    "bsp/host/host_board.c",
+)
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
 LINE_BYTES = 4096  # At most so many wait in a link.
-KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "int16_t": "<i2",
-         "uint16_t": "<u2"}  # fmt: skip
+KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "int16_t": "<i2", "uint16_t": "<u2"}
 
 
 def sources(root: Path = ROOT) -> list[str]:
     """What the library is made of."""
-    own = [path.relative_to(root).as_posix() for folder in FOLDERS
-           for path in sorted((root / folder).glob("*.c"))]  # fmt: skip
+    own = [
+        path.relative_to(root).as_posix()
+        for folder in FOLDERS
+        for path in sorted((root / folder).glob("*.c"))
+    ]
     return [*SOURCES, *own]
 
 
@@ -63,8 +82,11 @@ def digest_of(root: Path = ROOT) -> str:
 def declarations(text: str) -> str:
     """A header as cffi reads it: without comments, and of the preprocessor's lines only numbers."""
     plain = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
-    lines = [line for line in plain.splitlines()
-             if not line.startswith("#") or re.match(r"#define\s+\w+\s+\d+\s*$", line)]  # fmt: skip
+    lines = [
+        line
+        for line in plain.splitlines()
+        if not line.startswith("#") or re.match(r"#define\s+\w+\s+\d+\s*$", line)
+    ]
     return "\n".join(lines)
 
 
@@ -75,9 +97,12 @@ def layout(kind: Any) -> Any:
     if kind.kind == "primitive":
         return KINDS[kind.cname]
     names = [name for name, _ in kind.fields]
-    return {"names": names, "formats": [layout(item.type) for _, item in kind.fields],
-            "offsets": [item.offset for _, item in kind.fields],
-            "itemsize": kind_size(kind)}  # fmt: skip
+    return {
+        "names": names,
+        "formats": [layout(item.type) for _, item in kind.fields],
+        "offsets": [item.offset for _, item in kind.fields],
+        "itemsize": kind_size(kind),
+    }
 
 
 def kind_size(kind: Any) -> int:
@@ -134,8 +159,10 @@ class Copter:
         self.links = int(self._library.SIM_LINKS)
         self._trace = False  # Whether the next flight's log has each run of a task.
         self._done: Any = np.frombuffer(done, dtype=kind)
-        self.tasks = [self._ffi.string(self._library.sim_task_name(number)).decode()
-                      for number in range(count)]  # fmt: skip
+        self.tasks = [
+            self._ffi.string(self._library.sim_task_name(number)).decode()
+            for number in range(count)
+        ]
 
     def _memory(self, pointer: Any, name: str) -> Any:
         """A structure as numpy sees it, in place."""
@@ -151,8 +178,14 @@ class Copter:
         if self._library.sim_log(str(path or "").encode()):
             raise ToolError("the flight's log could not be written")
 
-    def start(self, costs_percent: int, plain_mean: bool, links: Sequence[Link] = (),
-              key: Key | None = None, memory: Path | None = None) -> None:  # fmt: skip
+    def start(
+        self,
+        costs_percent: int,
+        plain_mean: bool,
+        links: Sequence[Link] = (),
+        key: Key | None = None,
+        memory: Path | None = None,
+    ) -> None:
         """Power up; all devices are silent and zero."""
         size = self.sensors.dtype.itemsize
         self._ffi.memmove(self._library.sim_sensors(), bytes(size), size)

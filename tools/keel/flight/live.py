@@ -75,9 +75,16 @@ class Line:
 class Live(Flight):
     """A flight whose millisecond is one. Nothing is recorded."""
 
-    def __init__(self, copter: Copter, order: Order, pilot: type[Pilot],
-                 links: Sequence[Link], lines: Sequence[Line],
-                 key: Key | None, memory: Path) -> None:  # fmt: skip
+    def __init__(
+        self,
+        copter: Copter,
+        order: Order,
+        pilot: type[Pilot],
+        links: Sequence[Link],
+        lines: Sequence[Line],
+        key: Key | None,
+        memory: Path,
+    ) -> None:
         super().__init__(copter, order, pilot, links, key, memory)
         self._lines = lines
         self._keyboard = Keyboard()

@@ -37,8 +37,10 @@ def tell_damage(path: Path, log: ulog.Log) -> None:
     for damage in log.damage[:TOLD]:
         print(f"{path}: byte {damage.at}: {damage.reason}; {damage.size} bytes left out")
     if log.damage:
-        print(f"{path}: {len(log.damage)} places are damaged; "
-              f"{sum(damage.size for damage in log.damage)} bytes left out")  # fmt: skip
+        print(
+            f"{path}: {len(log.damage)} places are damaged; "
+            f"{sum(damage.size for damage in log.damage)} bytes left out"
+        )
 
 
 def show(arguments: Sequence[str] | None) -> int:
@@ -54,16 +56,21 @@ def show(arguments: Sequence[str] | None) -> int:
     picture: Path = options.picture or path.with_suffix(".log.svg")
     drawn = log_plots.plot_log(path.name, log, picture)
     console = tables.console()
-    for table in (log_plots.topics(log), log_plots.tasks(log, task_names()),
-                  log_plots.vibration(log)):  # fmt: skip
+    for table in (
+        log_plots.topics(log),
+        log_plots.tasks(log, task_names()),
+        log_plots.vibration(log),
+    ):
         if table:
             console.print(table)
     for text in log.texts:
         print(f"{text.time_us / 1e6:10.3f} s  {text.text}")
     tell_damage(path, log)
     lost_ms = sum(length for _, length in log.dropouts)
-    print(f"log: {len(log.dropouts)} dropouts, {lost_ms} ms; {log.cut} bytes cut off at the end; "
-          + (f"{picture} drawn" if drawn else "it has nothing that a picture shows"))  # fmt: skip
+    print(
+        f"log: {len(log.dropouts)} dropouts, {lost_ms} ms; {log.cut} bytes cut off at the end; "
+        + (f"{picture} drawn" if drawn else "it has nothing that a picture shows")
+    )
     return 0
 
 

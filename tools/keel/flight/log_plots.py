@@ -40,8 +40,9 @@ def columns(log: Log, topic: str, *fields: str, instance: int = 0) -> tuple[Any,
     if data is None or not len(data):
         return None
     names = data.dtype.names
-    if any(name not in names or data[name].dtype.kind not in "biuf"
-           for name in ("timestamp", *fields)):  # fmt: skip
+    if any(
+        name not in names or data[name].dtype.kind not in "biuf" for name in ("timestamp", *fields)
+    ):
         return None
     time = data["timestamp"]
     return (time.reshape(len(data), -1)[:, 0] / 1e6, *(numbers(data[name]) for name in fields))
@@ -80,8 +81,11 @@ def place_of(log: Log) -> Found | None:
 
 def motors_of(log: Log) -> Found | None:
     """What they are told: 0 to 1, or in us."""
-    return (wide(log, "control", "motor", 4) or wide(log, "actuator_motors", "control", 4)
-            or wide(log, "actuator_outputs", "output", 4))  # fmt: skip
+    return (
+        wide(log, "control", "motor", 4)
+        or wide(log, "actuator_motors", "control", 4)
+        or wide(log, "actuator_outputs", "output", 4)
+    )
 
 
 def votes_of(log: Log) -> Found | None:
@@ -130,8 +134,12 @@ def draw_motors(axes: Axes, log: Log, found: Found) -> None:
     """What they are told; another's have numbers, as its frame may be another."""
     ours = wide(log, "control", "motor", 4)
     for number, name in enumerate(MOTORS):
-        axes.plot(thin(found[0]), thin(found[1][:, number]), linewidth=0.7,
-                  label=name if ours else str(number + 1))  # fmt: skip
+        axes.plot(
+            thin(found[0]),
+            thin(found[1][:, number]),
+            linewidth=0.7,
+            label=name if ours else str(number + 1),
+        )
     axes.set_ylabel("motors")
     if ours:
         axes.set_ylim(0.0, 1.0)
@@ -142,8 +150,12 @@ def draw_votes(axes: Axes, log: Log, found: Found) -> None:
     used = thin(np.nan_to_num(found[1])).astype(np.int64)
     for unit in range(min(units_of(log), used.shape[1])):
         counts = [bin(int(word)).count("1") for word in used[:, unit]]
-        axes.plot(thin(found[0]), np.array(counts) + 0.08 * unit, drawstyle="steps",
-                  label=f"unit {unit + 1}")  # fmt: skip
+        axes.plot(
+            thin(found[0]),
+            np.array(counts) + 0.08 * unit,
+            drawstyle="steps",
+            label=f"unit {unit + 1}",
+        )
     axes.set_ylabel("channels\nin the vote")
 
 
@@ -167,15 +179,19 @@ def draw_states(axes: Axes, log: Log) -> None:
     for place, row in enumerate(changes):
         name = names[numbered[row]] if 0 <= numbered[row] < len(names) else f"state {numbered[row]}"
         axes.axvline(found[0][row], color=GREY, linewidth=0.6)
-        axes.text(found[0][row], 95 - 12 * (place % 3), f" {name}", va="top", fontsize=7,
-                  clip_on=True)  # fmt: skip
+        axes.text(
+            found[0][row], 95 - 12 * (place % 3), f" {name}", va="top", fontsize=7, clip_on=True
+        )
 
 
 # What is found in a log, and what draws it: from the top.
 OVER_TIME: tuple[tuple[Callable[[Log], Found | None], Callable[[Axes, Log, Found], None]], ...] = (
-    (attitude_of, draw_attitude), (place_of, draw_place), (motors_of, draw_motors),
-    (votes_of, draw_votes), (load_of, draw_load),
-)  # fmt: skip
+    (attitude_of, draw_attitude),
+    (place_of, draw_place),
+    (motors_of, draw_motors),
+    (votes_of, draw_votes),
+    (load_of, draw_load),
+)
 
 
 def units_of(log: Log) -> int:
@@ -230,14 +246,20 @@ def spectra_of(log: Log, first: int) -> list[tuple[int, Spectrum]]:
 def draw_spectra(axes: Axes, found: list[tuple[int, Spectrum]]) -> None:
     """All units' spectra of a kind, one over the other (fig. 13)."""
     for (unit, line), colour in zip(found, COLOURS, strict=False):
-        axes.semilogy(line.frequency[1:], line.amplitude[1:], color=colour, linewidth=0.7,
-                      label=f"unit {unit + 1}")  # fmt: skip
+        axes.semilogy(
+            line.frequency[1:],
+            line.amplitude[1:],
+            color=colour,
+            linewidth=0.7,
+            label=f"unit {unit + 1}",
+        )
 
 
 def span_of(log: Log) -> tuple[float, float]:
     """From when until when the log is, but for single samples whose times are far off."""
-    times = [found[0] for name, instance in log.data
-             if (found := columns(log, name, instance=instance))]  # fmt: skip
+    times = [
+        found[0] for name, instance in log.data if (found := columns(log, name, instance=instance))
+    ]
     first, last = (float(end) for end in np.quantile(max(times, key=len), (0.002, 0.998)))
     margin = 0.03 * (last - first) + 0.1
     return first - margin, last + margin
@@ -257,8 +279,9 @@ def plot_log(title: str, log: Log, path: Path) -> bool:
         axes.legend(loc="upper right", ncols=4)
     if over_time:
         rows[len(over_time) - 1].set_xlabel("time since power-up, s")
-    for axes, ((name, unit_of_measure, _), lines) in zip(rows[len(over_time) :], shakes,
-                                                         strict=True):  # fmt: skip
+    for axes, ((name, unit_of_measure, _), lines) in zip(
+        rows[len(over_time) :], shakes, strict=True
+    ):
         draw_spectra(axes, lines)
         axes.set_ylabel(f"{name},\n{unit_of_measure}")
         axes.legend(loc="upper right", ncols=4)
@@ -293,23 +316,32 @@ def tasks(log: Log, names: list[str]) -> Table | None:
     lasts = zip(*(np.nan_to_num(each[-1]) for each in found[1:]), strict=False)
     for row, (runs, busy, longest, skipped) in enumerate(lasts):
         if runs:
-            table.add_row(names[row] if row < len(names) else f"own task {row}", f"{runs:.0f}",
-                          f"{100.0 * busy / last_us:.2f}", f"{busy / runs:.1f}",
-                          f"{longest:.0f}", f"{skipped:.0f}")  # fmt: skip
+            table.add_row(
+                names[row] if row < len(names) else f"own task {row}",
+                f"{runs:.0f}",
+                f"{100.0 * busy / last_us:.2f}",
+                f"{busy / runs:.1f}",
+                f"{longest:.0f}",
+                f"{skipped:.0f}",
+            )
     return table
 
 
 def vibration(log: Log) -> Table | None:
     """A row for each unit and kind: the frequencies at which it shakes most; None without any."""
-    rows = [(unit, name, unit_of_measure, line) for name, unit_of_measure, first in KINDS
-            for unit, line in spectra_of(log, first)]  # fmt: skip
+    rows = [
+        (unit, name, unit_of_measure, line)
+        for name, unit_of_measure, first in KINDS
+        for unit, line in spectra_of(log, first)
+    ]
     if not rows:
         return None
     table = Table(title="Vibration: the strongest lines", title_justify="left")
     for heading in ("unit", "of", *[f"{number + 1}." for number in range(PEAKS)]):
         table.add_column(heading)
     for unit, name, unit_of_measure, line in sorted(rows, key=lambda row: row[0]):
-        cells = [f"{hertz:.1f} Hz: {size:.3g} {unit_of_measure}"
-                 for hertz, size in line.peaks(PEAKS)]  # fmt: skip
+        cells = [
+            f"{hertz:.1f} Hz: {size:.3g} {unit_of_measure}" for hertz, size in line.peaks(PEAKS)
+        ]
         table.add_row(str(unit + 1), name, *cells)
     return table

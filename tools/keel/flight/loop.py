@@ -35,8 +35,22 @@ WIND_MS = round(1000 * wind.PERIOD_S)
 POWER_MS = 10
 ARMS_WITHIN_S = 30.0
 LIES, LIES_M = 1.4, 0.5  # Tilted by 80 degrees so near the ground, it has crashed.
-TRUTH = ("time", "north", "east", "up", "v_north", "v_east", "v_up", "roll", "pitch", "yaw",
-         "wind_north", "wind_east", "voltage", "current")  # fmt: skip
+TRUTH = (
+    "time",
+    "north",
+    "east",
+    "up",
+    "v_north",
+    "v_east",
+    "v_up",
+    "roll",
+    "pitch",
+    "yaw",
+    "wind_north",
+    "wind_east",
+    "voltage",
+    "current",
+)
 
 
 class NotFlown(Exception):
@@ -91,13 +105,18 @@ def without_faults(order: Order) -> Order:
 class Flight:
     """A flight that is being made."""
 
-    def __init__(self, copter: Copter, order: Order, pilot: type[Pilot] = Pilot,
-                 links: Sequence[Link] = (), key: Key | None = None,
-                 keep: Path | None = None) -> None:  # fmt: skip
+    def __init__(
+        self,
+        copter: Copter,
+        order: Order,
+        pilot: type[Pilot] = Pilot,
+        links: Sequence[Link] = (),
+        key: Key | None = None,
+        keep: Path | None = None,
+    ) -> None:
         scenario = order.scenario
         self._copter, self._scenario = copter, scenario
-        copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key,
-                     keep)  # fmt: skip
+        copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key, keep)
         seeds = np.random.SeedSequence(order.seed).spawn(4)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, airframe_of(order), scenario.heading_deg)
@@ -113,14 +132,19 @@ class Flight:
         self._faults = Faults(scenario.fault, copter, self._battery, scenario.first_fix)
         air = scenario.wind
         self._wind = wind.drawn(
-            rng[2], ARMS_WITHIN_S + scenario.duration_s, air.speed, air.from_deg, air.turbulence,
+            rng[2],
+            ARMS_WITHIN_S + scenario.duration_s,
+            air.speed,
+            air.from_deg,
+            air.turbulence,
             [(gust.at_s, gust.length_s, gust.speed) for gust in air.gust],
-        )  # fmt: skip
+        )
         self._still_air = scenario.wind == type(air)()
         self._motors: Sequence[float] = [0.0] * plants.MOTORS
         self._begun_ms = -1
-        self._mode_channels = {mode: copter.mode_channel(number)
-                               for number, mode in enumerate(modes())}  # fmt: skip
+        self._mode_channels = {
+            mode: copter.mode_channel(number) for number, mode in enumerate(modes())
+        }
         self._rows: list[tuple[float, ...]] = []
         self._views: list[bytes] = []
         self._done_before = copter.done()
@@ -148,8 +172,10 @@ class Flight:
             view = self._copter.view
             checks = ", ".join(checks_of(int(view["blocking_checks"]))) or "none"
             facts = ", ".join(facts_of(int(view["blocking_facts"]))) or "none"
-            raise NotFlown(f"not armed after {ARMS_WITHIN_S:.0f} s: checks that do not hold: "
-                           f"{checks}; facts: {facts}")  # fmt: skip
+            raise NotFlown(
+                f"not armed after {ARMS_WITHIN_S:.0f} s: checks that do not hold: "
+                f"{checks}; facts: {facts}"
+            )
         return False
 
     def step(self, now_ms: int) -> None:
@@ -172,8 +198,10 @@ class Flight:
             raise NotFlown(f"the scheduler refused to go on at {time_s:.3f} s: status {status}")
         copter.look()
         scale = self._battery.voltage / plants.NOMINAL_V
-        self._motors = [min(1.0, scale * share * motor) for share, motor in
-                        zip(self._faults.shares, copter.motor.tolist(), strict=True)]  # fmt: skip
+        self._motors = [
+            min(1.0, scale * share * motor)
+            for share, motor in zip(self._faults.shares, copter.motor.tolist(), strict=True)
+        ]
         if self._begun_ms < 0 and copter.view["motors_on"]:
             self._begun_ms = now_ms
             self._done_before = copter.done()
@@ -199,8 +227,9 @@ class Flight:
         truth = self._plant.truth()
         if not is_whole(truth):
             raise Crashed(f"crashed at {time_s:.2f} s")
-        sight = Sight(time_s, truth, bool(ready), thrusts, self._mode_channels,
-                      bool(view["motors_on"]))  # fmt: skip
+        sight = Sight(
+            time_s, truth, bool(ready), thrusts, self._mode_channels, bool(view["motors_on"])
+        )
         channels = self._pilot.frame(sight)
         if not broken.radio_lost:
             frame = RADIO_FRAMES[self._scenario.radio](channels, broken.radio_failsafe)
@@ -211,8 +240,18 @@ class Flight:
         truth = self._plant.truth()
         time_s = (now_ms - self._begun_ms) / 1000.0
         air = self._wind[(now_ms - self._begun_ms) // WIND_MS]
-        self._rows.append((time_s, *truth.place, *truth.speed, *truth.angles, air[0], air[1],
-                           self._battery.voltage, self._battery.current))  # fmt: skip
+        self._rows.append(
+            (
+                time_s,
+                *truth.place,
+                *truth.speed,
+                *truth.angles,
+                air[0],
+                air[1],
+                self._battery.voltage,
+                self._battery.current,
+            )
+        )
         self._views.append(bytes(self._copter.view_bytes))
 
     def _trace(self, problem: str, crash: str) -> Trace:
@@ -220,9 +259,16 @@ class Flight:
         truth = np.array(self._rows, dtype=np.float64).reshape(-1, len(TRUTH))
         views = b"".join(self._views)
         digest = hashlib.sha256(truth.tobytes() + views).hexdigest()
-        return Trace(truth, np.frombuffer(views, self._copter.view_type), digest, problem, crash,
-                     max(0, self._begun_ms) / 1000.0, self._copter.tasks,
-                     (self._done_before, self._copter.done()))  # fmt: skip
+        return Trace(
+            truth,
+            np.frombuffer(views, self._copter.view_type),
+            digest,
+            problem,
+            crash,
+            max(0, self._begun_ms) / 1000.0,
+            self._copter.tasks,
+            (self._done_before, self._copter.done()),
+        )
 
 
 def is_whole(truth: Truth) -> bool:

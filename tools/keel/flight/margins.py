@@ -93,7 +93,8 @@ def loops(gains: Mapping[str, float]) -> dict[str, Response]:
     turns, motor = authority(), 1.0 / (1j * RADIANS * plant.MOTOR_S + 1.0)
     integrates = 1.0 / (1j * RADIANS)
     seen = low_pass(gains["IMU_GYRO_CUTOFF"], CONTROL_S) * late(
-        AGE_S + OVERSAMPLED_S + CONTROL_S / 2.0)  # fmt: skip
+        AGE_S + OVERSAMPLED_S + CONTROL_S / 2.0
+    )
     opened: dict[str, Response] = {}
     for name, prefix in (("roll", "ROLL"), ("yaw", "YAW")):
         kp, ki, kd = (gains[f"{prefix}_RATE_{letter}"] for letter in "PID")
@@ -125,8 +126,9 @@ def margins_of(loop: str, opened: Response) -> Margins:
     turned = np.flatnonzero((phase[:-1] > -np.pi) & (phase[1:] <= -np.pi))
     gain = float(1.0 / size[turned[0]]) if len(turned) else float("inf")
     left = float(phase[at] + np.pi)
-    return Margins(loop, gain, float(np.degrees(left)), 1000.0 * left / float(RADIANS[at]),
-                   float(RADIANS[at]))  # fmt: skip
+    return Margins(
+        loop, gain, float(np.degrees(left)), 1000.0 * left / float(RADIANS[at]), float(RADIANS[at])
+    )
 
 
 def all_margins() -> list[Margins]:
@@ -140,8 +142,13 @@ def shown(found: list[Margins], make: Callable[..., Table] = Table) -> Table:
     for name in ("loop", "gain", "phase, deg", "delay, ms", "crosses over, rad/s"):
         table.add_column(name, justify="left" if name == "loop" else "right")
     for item in found:
-        table.add_row(item.loop, f"{item.gain:.1f}", f"{item.phase_deg:.0f}",
-                      f"{item.delay_ms:.0f}", f"{item.crossover:.1f}")  # fmt: skip
+        table.add_row(
+            item.loop,
+            f"{item.gain:.1f}",
+            f"{item.phase_deg:.0f}",
+            f"{item.delay_ms:.0f}",
+            f"{item.crossover:.1f}",
+        )
     return table
 
 
@@ -151,6 +158,8 @@ def main(_arguments: Sequence[str] | None = None) -> int:
     Console().print(shown(found))
     write_json(ROOT / REPORT, {"schema": 1, "loops": [asdict(item) for item in found]})
     least = min(found, key=lambda item: item.delay_ms)
-    print(f"margins: {len(found)} loops; {least.loop} stands the least delay, "
-          f"{least.delay_ms:.0f} ms; {REPORT} has them")  # fmt: skip
+    print(
+        f"margins: {len(found)} loops; {least.loop} stands the least delay, "
+        f"{least.delay_ms:.0f} ms; {REPORT} has them"
+    )
     return 0

@@ -40,10 +40,13 @@ PROGRAM = ["tools/keel", "with", "fly", "-m", "keel.flight.orders"]
 ORDER = 5  # Flights in an order.
 RANKS = (50.0, 90.0, 99.0, 100.0)
 TOLD = {
-    "attitude_rms_deg": "attitude, rms, deg", "attitude_max_deg": "attitude, worst, deg",
-    "tilt_max_deg": "tilt, most, deg", "place_max_m": "place, belief less truth, m",
-    "height_error_max_m": "height, belief less truth, m", "sink_max": "touch-down, m/s",
-}  # fmt: skip
+    "attitude_rms_deg": "attitude, rms, deg",
+    "attitude_max_deg": "attitude, worst, deg",
+    "tilt_max_deg": "tilt, most, deg",
+    "place_max_m": "place, belief less truth, m",
+    "height_error_max_m": "height, belief less truth, m",
+    "sink_max": "touch-down, m/s",
+}
 Answer = Mapping[str, Any]
 
 
@@ -51,8 +54,9 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     """The command line."""
     parser = Parser("Fly many seeds and tell how errors are distributed.", "flights")
     parser.add_argument("--flights", type=int, default=100, metavar="N", help="seeds 1 to N")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
-                        help="workers of this machine")  # fmt: skip
+    parser.add_argument(
+        "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="workers of this machine"
+    )
     parser.add_argument("--seed", type=int, metavar="N", help="this one alone, with its picture")
     found = parser.parse_args(arguments)
     for name in ("flights", "jobs"):
@@ -87,8 +91,9 @@ def cluster(address: str, width: int) -> Any:
     try:
         if address:
             return distributed.Client(address, timeout=20, set_as_default=False)
-        return distributed.Client(n_workers=width, threads_per_worker=1, dashboard_address=None,
-                                  set_as_default=False)  # fmt: skip
+        return distributed.Client(
+            n_workers=width, threads_per_worker=1, dashboard_address=None, set_as_default=False
+        )
     except (OSError, ValueError) as error:
         raise ToolError(f"no cluster answers at {address or 'this machine'}: {error}") from error
 
@@ -98,8 +103,10 @@ def answers(client: Any, seeds: Sequence[int]) -> Iterator[Answer]:
     distributed = importlib.import_module("distributed")
     sent = client.scatter(archive(ROOT, SENT), broadcast=True, hash=True)
     orders = [list(seeds[start : start + ORDER]) for start in range(0, len(seeds), ORDER)]
-    futures = [client.submit(cluster_worker.carry_out, sent, PROGRAM, order, pure=False)
-               for order in orders]  # fmt: skip
+    futures = [
+        client.submit(cluster_worker.carry_out, sent, PROGRAM, order, pure=False)
+        for order in orders
+    ]
     try:
         done = distributed.as_completed(futures, with_results=True, loop=client.loop)
         for _, order in done:
@@ -136,8 +143,10 @@ def progress(done: int, count: int, answer: Answer, seconds: float) -> None:
     """A line for each flight that is not good, and for each tenth one."""
     if not answer["good"] or done % 10 == 0 or done == count:
         word = "good" if answer["good"] else "NOT GOOD"
-        print(f"[{done}/{count}] {seconds:.0f} s: {answer['name']}, {answer['fault']}, in "
-              f"{answer['plant']}: {word}")  # fmt: skip
+        print(
+            f"[{done}/{count}] {seconds:.0f} s: {answer['name']}, {answer['fault']}, in "
+            f"{answer['plant']}: {word}"
+        )
 
 
 def ranks(flights: Sequence[Answer]) -> dict[str, dict[str, float]]:
@@ -147,8 +156,9 @@ def ranks(flights: Sequence[Answer]) -> dict[str, dict[str, float]]:
         values = [flight["measured"][name] for flight in flights if name in flight["measured"]]
         if values:
             cuts = np.percentile(values, RANKS)
-            found[name] = {f"p{rank:g}": round(float(cut), 4)
-                           for rank, cut in zip(RANKS, cuts, strict=True)}  # fmt: skip
+            found[name] = {
+                f"p{rank:g}": round(float(cut), 4) for rank, cut in zip(RANKS, cuts, strict=True)
+            }
     return found
 
 
@@ -190,16 +200,30 @@ def report_of(flights: Sequence[Answer], digest: str) -> dict[str, object]:
     """What flights.json says."""
     groups = by_fault(flights)
     return {
-        "schema": 1, "digest": digest, "flights": len(flights),
+        "schema": 1,
+        "digest": digest,
+        "flights": len(flights),
         "good": sum(bool(flight["good"]) for flight in flights),
         "percentiles": ranks(flights),
-        "by_fault": {name: {"flights": len(group),
-                            "good": sum(bool(flight["good"]) for flight in group),
-                            "percentiles": ranks(group)} for name, group in groups.items()},
-        "not_good": [{"seed": flight["seed"], "plant": flight["plant"], "fault": flight["fault"],
-                      "limits": [limit for limit in flight["limits"] if not limit["good"]]}
-                     for flight in flights if not flight["good"]],
-    }  # fmt: skip
+        "by_fault": {
+            name: {
+                "flights": len(group),
+                "good": sum(bool(flight["good"]) for flight in group),
+                "percentiles": ranks(group),
+            }
+            for name, group in groups.items()
+        },
+        "not_good": [
+            {
+                "seed": flight["seed"],
+                "plant": flight["plant"],
+                "fault": flight["fault"],
+                "limits": [limit for limit in flight["limits"] if not limit["good"]],
+            }
+            for flight in flights
+            if not flight["good"]
+        ],
+    }
 
 
 def fly_all(options: argparse.Namespace) -> int:
@@ -214,8 +238,11 @@ def fly_all(options: argparse.Namespace) -> int:
     screen.print(faults_table(flights))
     bad = [flight for flight in flights if not flight["good"]]
     for flight in bad[:20]:
-        what = "; ".join(f"{limit['name']} {limit['value']}, wanted {limit['limit']}"
-                         for limit in flight["limits"] if not limit["good"])  # fmt: skip
+        what = "; ".join(
+            f"{limit['name']} {limit['value']}, wanted {limit['limit']}"
+            for limit in flight["limits"]
+            if not limit["good"]
+        )
         print(f"seed {flight['seed']}, {flight['fault']}, in {flight['plant']}: {what}")
     again = f"; make fly SEED={bad[0]['seed']} flies the first of them again" if bad else ""
     print(f"flights: {len(flights)} flown, {len(flights) - len(bad)} good, {len(bad)} not{again}")

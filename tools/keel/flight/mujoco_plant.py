@@ -71,15 +71,27 @@ def model_of(airframe: Airframe) -> str:
     legs = [LEG.format(x=0.1016 * x, y=0.1016 * y, z=0.02 - LEGS_M) for x, y in PLACES]
     sites = [SITE.format(n=n, x=ARM_M * x, y=ARM_M * y) for n, (x, y) in enumerate(PLACES)]
     thrust = THRUST_N * airframe.motor_speed**2
-    motors = [MOTOR.format(n=n, k=TORQUE_M * turn, lag=MOTOR_S * airframe.motor_lag, thrust=thrust)
-              for n, turn in enumerate(TURNS)]  # fmt: skip
+    motors = [
+        MOTOR.format(n=n, k=TORQUE_M * turn, lag=MOTOR_S * airframe.motor_lag, thrust=thrust)
+        for n, turn in enumerate(TURNS)
+    ]
     ixx, iyy, izz = (airframe.inertia * value for value in INERTIA)
     north, east, up = FIELD_UT
     return MODEL.format(
-        step=STEP_S, north=north, east=east, up=up, legs=LEGS_M, mass=MASS_KG * airframe.mass,
-        ixx=ixx, iyy=iyy, izz=izz, density=AIR * AREA * airframe.drag,
-        legs_xml="\n".join(legs), sites="\n".join(sites), motors="\n".join(motors),
-    )  # fmt: skip
+        step=STEP_S,
+        north=north,
+        east=east,
+        up=up,
+        legs=LEGS_M,
+        mass=MASS_KG * airframe.mass,
+        ixx=ixx,
+        iyy=iyy,
+        izz=izz,
+        density=AIR * AREA * airframe.drag,
+        legs_xml="\n".join(legs),
+        sites="\n".join(sites),
+        motors="\n".join(motors),
+    )
 
 
 class MujocoPlant:
@@ -124,9 +136,12 @@ class MujocoPlant:
         left_of_east = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
         yaw = (math.pi / 2 - left_of_east) % (2 * math.pi)
         return Truth(
-            (north, east, up - LEGS_M), (v_north, v_east, v_up), (roll, -nose_down, yaw),
-            HOME_LATITUDE + north / NORTH_M, HOME_LONGITUDE + east / EAST_M,
-        )  # fmt: skip
+            (north, east, up - LEGS_M),
+            (v_north, v_east, v_up),
+            (roll, -nose_down, yaw),
+            HOME_LATITUDE + north / NORTH_M,
+            HOME_LONGITUDE + east / EAST_M,
+        )
 
     def blow(self, north: float, east: float, down: float) -> None:
         """Its medium's speed."""

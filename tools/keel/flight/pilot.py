@@ -64,8 +64,13 @@ class Pilot:
             self._fly(sight)
         sticks = [self._stick(name, sight.time_s) for name in ("roll", "pitch", "throttle", "yaw")]
         ends = [MIDDLE + round(WAY * max(-1.0, min(1.0, stick))) for stick in sticks]
-        return [*ends, ON if self.armed else OFF, sight.mode_channels[self.mode],
-                ON if self.killed else OFF, MIDDLE]  # fmt: skip
+        return [
+            *ends,
+            ON if self.armed else OFF,
+            sight.mode_channels[self.mode],
+            ON if self.killed else OFF,
+            MIDDLE,
+        ]
 
     def _wait(self, sight: Sight) -> None:
         """Throttle low; on when all is well."""
@@ -90,8 +95,10 @@ class Pilot:
         if hand.still:
             self.waves = ()
         if hand.wave:
-            self.waves = (*self.waves, *((wave.stick, wave.amplitude, wave.period_s, hand.at_s)
-                                         for wave in hand.wave))  # fmt: skip
+            self.waves = (
+                *self.waves,
+                *((wave.stick, wave.amplitude, wave.period_s, hand.at_s) for wave in hand.wave),
+            )
         self.mode = hand.mode or self.mode
         self.armed = self.armed if hand.arm is None else hand.arm
         self.killed = self.killed if hand.kill is None else hand.kill
@@ -102,8 +109,9 @@ class Pilot:
         """A stick's place, with its waves."""
         return self.sticks[name] + sum(
             amplitude * math.sin(2.0 * math.pi * (time_s - start_s) / period_s)
-            for stick, amplitude, period_s, start_s in self.waves if stick == name
-        )  # fmt: skip
+            for stick, amplitude, period_s, start_s in self.waves
+            if stick == name
+        )
 
     def _fly(self, sight: Sight) -> None:
         """Move the throttle by sight."""

@@ -31,8 +31,13 @@ def draw_attitude(axes: Axes, trace: Trace, time: Any) -> None:
     """Roll and pitch: truth, belief, and what was asked."""
     wanted, seen = asked(trace), believed(trace)
     for number, (name, colour) in enumerate((("roll", BLUE), ("pitch", ORANGE))):
-        axes.plot(time, np.degrees(thin(wanted[number])), color=GREY, linewidth=0.7,
-                  label="asked for" if number == 0 else None)  # fmt: skip
+        axes.plot(
+            time,
+            np.degrees(thin(wanted[number])),
+            color=GREY,
+            linewidth=0.7,
+            label="asked for" if number == 0 else None,
+        )
         axes.plot(time, np.degrees(thin(trace.column(name))), color=colour, label=name)
         axes.plot(time, np.degrees(thin(seen[number])), color=colour, linestyle=":")
     axes.set_ylabel("angle, degrees\n(dotted: belief)")
@@ -81,8 +86,13 @@ def draw_load(axes: Axes, trace: Trace, time: Any) -> None:
     changes = [0, *(np.flatnonzero(np.diff(numbers)) + 1).tolist()]
     for place, row in enumerate(changes):
         axes.axvline(trace.column("time")[row], color=GREY, linewidth=0.6)
-        axes.text(trace.column("time")[row], 95 - 12 * (place % 3), f" {states()[numbers[row]]}",
-                  va="top", fontsize=7)  # fmt: skip
+        axes.text(
+            trace.column("time")[row],
+            95 - 12 * (place % 3),
+            f" {states()[numbers[row]]}",
+            va="top",
+            fontsize=7,
+        )
 
 
 def draw_tasks(axes: Axes, trace: Trace) -> None:

@@ -32,8 +32,9 @@ RADIO_LINES = {"sbus": LINES[RADIO], "crsf": Line(24, False), "ibus": Line(87, F
 class Receiver:
     """What it sends stands in the simulated device, with the times at which it comes."""
 
-    def __init__(self, memory: Any, number: int, rng: np.random.Generator,
-                 line: Line | None = None) -> None:  # fmt: skip
+    def __init__(
+        self, memory: Any, number: int, rng: np.random.Generator, line: Line | None = None
+    ) -> None:
         self._memory = memory["receiver"][number]
         self._line = line or LINES[number]
         self._rng = rng

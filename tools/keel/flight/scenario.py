@@ -86,25 +86,51 @@ class Hand(Table):
 
 # What each fault needs beside its time, and what it may have.
 FAULTS: dict[str, tuple[str, ...]] = {
-    "imu_freeze": ("unit",), "imu_silent": ("unit",), "imu_shout": ("unit",),
-    "imu_drift": ("unit", "rate"), "imu_scale": ("unit", "share"),
+    "imu_freeze": ("unit",),
+    "imu_silent": ("unit",),
+    "imu_shout": ("unit",),
+    "imu_drift": ("unit", "rate"),
+    "imu_scale": ("unit", "share"),
     "imu_vibration": ("acceleration", "rate"),
-    "radio_loss": (), "radio_failsafe": (), "radio_noise": ("share",),
-    "gps_loss": (), "gps_jump": ("north_m", "east_m"), "gps_noise": ("share",),
+    "radio_loss": (),
+    "radio_failsafe": (),
+    "radio_noise": ("share",),
+    "gps_loss": (),
+    "gps_jump": ("north_m", "east_m"),
+    "gps_noise": ("share",),
     "gps_wild": ("metres",),
-    "barometer_spike": ("pascal",), "barometer_loss": (), "barometer_stuck": (),
+    "barometer_spike": ("pascal",),
+    "barometer_loss": (),
+    "barometer_stuck": (),
     "magnetometer_current": ("microtesla_per_ampere",),
-    "motor_weak": ("motor", "share"), "battery_low": ("share",),
+    "motor_weak": ("motor", "share"),
+    "battery_low": ("share",),
     "task_overrun": ("task", "runs", "extra_us"),
-}  # fmt: skip
+}
 # What it may have.
 OPTIONAL: dict[str, tuple[str, ...]] = {"imu_vibration": ("alike",)}
 FaultKind = Literal[
-    "imu_freeze", "imu_silent", "imu_shout", "imu_drift", "imu_scale", "imu_vibration",
-    "radio_loss", "radio_failsafe", "radio_noise", "gps_loss", "gps_jump", "gps_noise", "gps_wild",
-    "barometer_spike", "barometer_loss", "barometer_stuck", "magnetometer_current", "motor_weak",
-    "battery_low", "task_overrun",
-]  # fmt: skip
+    "imu_freeze",
+    "imu_silent",
+    "imu_shout",
+    "imu_drift",
+    "imu_scale",
+    "imu_vibration",
+    "radio_loss",
+    "radio_failsafe",
+    "radio_noise",
+    "gps_loss",
+    "gps_jump",
+    "gps_noise",
+    "gps_wild",
+    "barometer_spike",
+    "barometer_loss",
+    "barometer_stuck",
+    "magnetometer_current",
+    "motor_weak",
+    "battery_low",
+    "task_overrun",
+]
 
 
 class Fault(Table):

@@ -88,8 +88,9 @@ def turned(rng: np.random.Generator, most: float) -> Any:
 class Wander:
     """A random walk that is drawn back to 0."""
 
-    def __init__(self, rng: np.random.Generator, deviation: float, time_s: float, step_s: float,
-                 size: int) -> None:  # fmt: skip
+    def __init__(
+        self, rng: np.random.Generator, deviation: float, time_s: float, step_s: float, size: int
+    ) -> None:
         self._keep = math.exp(-step_s / time_s)
         self._push = deviation * math.sqrt(1.0 - self._keep**2)
         self._state = deviation * rng.standard_normal(size)
@@ -104,11 +105,13 @@ def body_to_earth(roll: float, pitch: float, yaw: float) -> Any:
     """The matrix that turns a vector of the body (forward, right, down) to north, east, down."""
     cr, sr, cp, sp = math.cos(roll), math.sin(roll), math.cos(pitch), math.sin(pitch)
     cy, sy = math.cos(yaw), math.sin(yaw)
-    return np.array([
-        [cp * cy, sr * sp * cy - cr * sy, cr * sp * cy + sr * sy],
-        [cp * sy, sr * sp * sy + cr * cy, cr * sp * sy - sr * cy],
-        [-sp, sr * cp, cr * cp],
-    ])  # fmt: skip
+    return np.array(
+        [
+            [cp * cy, sr * sp * cy - cr * sy, cr * sp * cy + sr * sy],
+            [cp * sy, sr * sp * sy + cr * cy, cr * sp * sy - sr * cy],
+            [-sp, sr * cp, cr * cp],
+        ]
+    )
 
 
 class Inertial:
@@ -127,9 +130,11 @@ class Inertial:
         spread = np.array([ACCELEROMETER_BIAS] * 3 + [GYROSCOPE_BIAS] * 3)
         self._bias = (quality.bias * spread * rng.uniform(-1.0, 1.0, (UNITS, 6))).reshape(-1)
         self._noise = quality.noise * np.array(
-            [[force] * 3 + [rate] * 3
-             for force, rate in zip(ACCELEROMETER_NOISE, GYROSCOPE_NOISE, strict=True)]
-        ).reshape(-1)  # fmt: skip
+            [
+                [force] * 3 + [rate] * 3
+                for force, rate in zip(ACCELEROMETER_NOISE, GYROSCOPE_NOISE, strict=True)
+            ]
+        ).reshape(-1)
         shake = np.array([VIBRATION[0]] * 3 + [VIBRATION[1]] * 3)
         self._shake = quality.vibration * np.tile(shake, UNITS)
         self._own(rng.spawn(1)[0], quality)
@@ -207,9 +212,12 @@ class Slow:
     """Magnetometer, barometer, satellites, power modules and the chip, each at its own pace."""
 
     def __init__(
-        self, memory: Any, seed: np.random.SeedSequence, quality: Quality,
+        self,
+        memory: Any,
+        seed: np.random.SeedSequence,
+        quality: Quality,
         place: Place | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._home = place
         own = [np.random.Generator(np.random.PCG64(part)) for part in seed.spawn(6)]
         self._field_rng, self._air_rng, self._gps_rng, self._power_rng, line_rng = own[:5]
@@ -258,15 +266,18 @@ class Slow:
         if self._home is None:
             return plant.field()
         return np.transpose(body_to_earth(*plant.truth().angles)) @ np.array(
-            [self._home.north, self._home.east, self._home.down])  # fmt: skip
+            [self._home.north, self._home.east, self._home.down]
+        )
 
     def _place_of(self, truth: Truth, north_m: float, east_m: float) -> tuple[float, float]:
         """Latitude and longitude of an aircraft that is taken to be so far off."""
         if self._home is None:
             return truth.latitude + north_m / NORTH_M, truth.longitude + east_m / EAST_M
         north, east = metres_per_degree(self._home.latitude)
-        return (self._home.latitude + (truth.place[0] + north_m) / north,
-                self._home.longitude + (truth.place[1] + east_m) / east)  # fmt: skip
+        return (
+            self._home.latitude + (truth.place[0] + north_m) / north,
+            self._home.longitude + (truth.place[1] + east_m) / east,
+        )
 
     def _barometer(self, now_ms: int, plant: Plant, broken: Broken) -> None:
         white, walk = self._air_rng.standard_normal(2)
@@ -293,15 +304,18 @@ class Slow:
         truth = plant.truth()
         quality = self._quality.gps_noise
         north, east = quality * PLACE_NOISE * drawn[:2] + self._place.step(drawn[2:4])
-        jump_north, jump_east = (
-            np.add(broken.gps_jump, broken.first_fix)
-            + broken.gps_wild * self._wild_rng.uniform(-1.0, 1.0, 2)
-        )
+        jump_north, jump_east = np.add(
+            broken.gps_jump, broken.first_fix
+        ) + broken.gps_wild * self._wild_rng.uniform(-1.0, 1.0, 2)
         place = self._place_of(truth, north + jump_north, east + jump_east)
-        speed = (truth.speed[0] + quality * SPEED_NOISE * drawn[4],
-                 truth.speed[1] + quality * SPEED_NOISE * drawn[5], -truth.speed[2])  # fmt: skip
-        fix = frames.nav_pvt(now_ms, place, HOME_ALTITUDE_M + truth.place[2], speed,
-                             0.8 * max(1.0, quality), 0.2)  # fmt: skip
+        speed = (
+            truth.speed[0] + quality * SPEED_NOISE * drawn[4],
+            truth.speed[1] + quality * SPEED_NOISE * drawn[5],
+            -truth.speed[2],
+        )
+        fix = frames.nav_pvt(
+            now_ms, place, HOME_ALTITUDE_M + truth.place[2], speed, 0.8 * max(1.0, quality), 0.2
+        )
         self._late.append((now_ms + self._quality.gps_delay_ms, fix))
 
     def _chip(self) -> None:

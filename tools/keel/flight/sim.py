@@ -44,19 +44,34 @@ MOST_BYTES_PER_S = 1_000_000
 def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     """The command line."""
     parser = Parser("Fly the copter in real time, with MAVLink over UDP.", "sim")
-    parser.add_argument("--address", action="append", metavar="HOST:PORT",
-                        help=f"where a ground station listens; {GROUND_STATIONS}")  # fmt: skip
-    parser.add_argument("--listens", action="store_true",
-                        help="take no commands and no parameters from the links")  # fmt: skip
-    parser.add_argument("--rate", type=int, default=20_000, metavar="BYTES",
-                        help="that each link carries in a second")  # fmt: skip
-    parser.add_argument("--key", type=Path, metavar="FILE",
-                        help="sign, and take only what is signed; 64 hexadecimal digits")
+    parser.add_argument(
+        "--address",
+        action="append",
+        metavar="HOST:PORT",
+        help=f"where a ground station listens; {GROUND_STATIONS}",
+    )
+    parser.add_argument(
+        "--listens", action="store_true", help="take no commands and no parameters from the links"
+    )
+    parser.add_argument(
+        "--rate",
+        type=int,
+        default=20_000,
+        metavar="BYTES",
+        help="that each link carries in a second",
+    )
+    parser.add_argument(
+        "--key",
+        type=Path,
+        metavar="FILE",
+        help="sign, and take only what is signed; 64 hexadecimal digits",
+    )
     parser.add_argument("--scenario", metavar="NAME", help="one of examples/copter/scenarios")
     parser.add_argument("--plant", choices=plants.NAMES, default="jsbsim")
     parser.add_argument("--cold", action="store_true", help="begin with the power-up")
-    parser.add_argument("--trace", action="store_true",
-                        help="log each run of each task, for Perfetto and as a page")
+    parser.add_argument(
+        "--trace", action="store_true", help="log each run of each task, for Perfetto and as a page"
+    )
     parser.add_argument("--build", type=Path, default=BUILD, metavar="FOLDER")
     found = parser.parse_args(arguments)
     found.address = [address_of(text) for text in found.address or [GROUND_STATIONS]]
@@ -98,8 +113,10 @@ def order_of(options: argparse.Namespace) -> Order:
 
 def tell(addresses: Sequence[Address]) -> None:
     """How to connect."""
-    print(f"MAVLink 2 goes to {', '.join(str(one) for one in addresses)}, by UDP. "
-          "Its system id is MAV_SYS_ID.")  # fmt: skip
+    print(
+        f"MAVLink 2 goes to {', '.join(str(one) for one in addresses)}, by UDP. "
+        "Its system id is MAV_SYS_ID."
+    )
     print("QGroundControl listens at 14550 by itself. Others:")
     for one in addresses:
         print(f"    mavproxy.py --master=udpin:{one}")
@@ -127,8 +144,7 @@ def fly(arguments: Sequence[str] | None) -> int:
     pilot: type[Pilot] = Pilot if options.scenario else Bystander
     log = options.build / "sim.ulg"
     copter.log(log, options.trace)
-    live = Live(copter, order, pilot, links, lines, key,
-                options.build / "parameters")  # fmt: skip
+    live = Live(copter, order, pilot, links, lines, key, options.build / "parameters")
     signal.signal(signal.SIGINT, signal.default_int_handler)  # Also in a shell's background.
     try:
         if not options.cold:

@@ -17,10 +17,14 @@ if TYPE_CHECKING:
 WIDTH = 170  # What the table of all flights needs, also in a log.
 # Columns of the table of all flights: a limit's name, and the heading.
 SHOWN = {
-    "attitude_rms_deg": "attitude,\nrms, deg", "attitude_max_deg": "worst,\ndeg",
-    "without_fault_deg": "from un-\nbroken", "tracking_rms_deg": "tracking,\nrms",
-    "hold_max_m": "hold,\nm", "height_max_m": "height,\nm", "sink_max": "touch-\ndown",
-}  # fmt: skip
+    "attitude_rms_deg": "attitude,\nrms, deg",
+    "attitude_max_deg": "worst,\ndeg",
+    "without_fault_deg": "from un-\nbroken",
+    "tracking_rms_deg": "tracking,\nrms",
+    "hold_max_m": "hold,\nm",
+    "height_max_m": "height,\nm",
+    "sink_max": "touch-\ndown",
+}
 
 
 def console() -> Console:

@@ -28,7 +28,9 @@ def digest_of(root: Path = ROOT) -> str:
     """SHA-256 of all that a flight of a seed depends on, beside the seed."""
     total = hashlib.sha256(library.digest_of(root).encode())
     for group in PINS:
-        total.update(requirements_of(group, root / PROJECT.name, root / "tools" / HASHES.name).encode())
+        total.update(
+            requirements_of(group, root / PROJECT.name, root / "tools" / HASHES.name).encode()
+        )
     files = [path for name in TOOLS for path in below(root / name)]
     for path in files:
         total.update(path.relative_to(root).as_posix().encode())
@@ -65,25 +67,36 @@ def order_of(seed: int) -> Order:
     draw = Draw(seed)
     plant = draw.one_of(plants.NAMES)
     airframe = Airframe(
-        mass=draw.between(0.6, 1.2), inertia=draw.between(0.7, 1.25),
-        motor_speed=draw.between(0.93, 1.07), motor_lag=draw.factor(1.5), drag=draw.factor(2.0),
-    )  # fmt: skip
+        mass=draw.between(0.6, 1.2),
+        inertia=draw.between(0.7, 1.25),
+        motor_speed=draw.between(0.93, 1.07),
+        motor_lag=draw.factor(1.5),
+        drag=draw.factor(2.0),
+    )
     quality = Quality(
-        noise=draw.factor(2.0), bias=draw.between(0.3, 1.5), vibration=draw.between(0.0, 2.0),
-        gps_delay_ms=int(draw.between(80, 200)), imu_delay_ms=draw.one_of((1, 2)),
-        baro_delay_ms=int(draw.between(5, 30)), gps_noise=draw.factor(2.0),
-        gps_wander=draw.between(1.0, 12.0), scale=draw.between(0.0, 0.03),
-        warmth=draw.between(0.0, 0.02), shaking=shaking_of(draw),
-        field_noise=draw.between(1.0, 7.0), field_per_ampere=draw.between(1.0, 10.0),
-    )  # fmt: skip
+        noise=draw.factor(2.0),
+        bias=draw.between(0.3, 1.5),
+        vibration=draw.between(0.0, 2.0),
+        gps_delay_ms=int(draw.between(80, 200)),
+        imu_delay_ms=draw.one_of((1, 2)),
+        baro_delay_ms=int(draw.between(5, 30)),
+        gps_noise=draw.factor(2.0),
+        gps_wander=draw.between(1.0, 12.0),
+        scale=draw.between(0.0, 0.03),
+        warmth=draw.between(0.0, 0.02),
+        shaking=shaking_of(draw),
+        field_noise=draw.between(1.0, 7.0),
+        field_per_ampere=draw.between(1.0, 10.0),
+    )
     return Order(scenario_of(draw), plant, seed, airframe, quality)
 
 
 def shaking_of(draw: Draw) -> Shaking:
     """Vibration up to what is called too strong by half: normal is below 15 m/s^2 rms."""
     acceleration = draw.between(0.0, 15.0)
-    return Shaking(acceleration=acceleration, rate=0.01 * acceleration,
-                   alike=draw.one_of((True, False)))  # fmt: skip
+    return Shaking(
+        acceleration=acceleration, rate=0.01 * acceleration, alike=draw.one_of((True, False))
+    )
 
 
 def scenario_of(draw: Draw) -> Scenario:
@@ -102,27 +115,46 @@ def scenario_of(draw: Draw) -> Scenario:
         {"at_s": 9.0, "pitch": pitch, "roll": roll, "yaw": draw.between(-0.3, 0.3)},
         {"at_s": 12.0, "pitch": 0.0, "roll": 0.0, "yaw": 0.0},
         {"at_s": 26.0, "mode": ends},
-    ]  # fmt: skip
-    wind = {"speed": draw.between(0.0, 6.0), "from_deg": draw.between(0.0, 360.0),
-            "turbulence": draw.between(0.0, 0.2)}  # fmt: skip
+    ]
+    wind = {
+        "speed": draw.between(0.0, 6.0),
+        "from_deg": draw.between(0.0, 360.0),
+        "turbulence": draw.between(0.0, 0.2),
+    }
     told = fault["kind"] if fault else HEALTHY
-    return Scenario.model_validate({
-        "description": told, "duration_s": DURATION_S, "mode": mode,
-        "heading_deg": draw.between(0.0, 360.0), "radio_hz": draw.one_of((50, 111)),
-        "battery_left": draw.between(0.4, 1.0), "wind": wind, "pilot": hands,
-        "first_fix": first_fix_of(draw),
-        "fault": [fault] if fault else [],
-        "limits": {"from_s": 1.0, "to_s": DURATION_S, "attitude_rms_deg": 2.5,
-                   "attitude_max_deg": 8.0, "tilt_max_deg": 45.0, "sink_max": 1.5,
-                   "end": {"state": "disarmed"}},
-    })  # fmt: skip
+    return Scenario.model_validate(
+        {
+            "description": told,
+            "duration_s": DURATION_S,
+            "mode": mode,
+            "heading_deg": draw.between(0.0, 360.0),
+            "radio_hz": draw.one_of((50, 111)),
+            "battery_left": draw.between(0.4, 1.0),
+            "wind": wind,
+            "pilot": hands,
+            "first_fix": first_fix_of(draw),
+            "fault": [fault] if fault else [],
+            "limits": {
+                "from_s": 1.0,
+                "to_s": DURATION_S,
+                "attitude_rms_deg": 2.5,
+                "attitude_max_deg": 8.0,
+                "tilt_max_deg": 45.0,
+                "sink_max": 1.5,
+                "end": {"state": "disarmed"},
+            },
+        }
+    )
 
 
 def first_fix_of(draw: Draw) -> dict[str, float] | None:
     """Every third receiver is wrong in its first seconds."""
     if draw.one_of((True, False, False)):
-        return {"until_s": draw.between(2.0, 6.0), "north_m": draw.between(-300.0, 300.0),
-                "east_m": draw.between(-300.0, 300.0)}  # fmt: skip
+        return {
+            "until_s": draw.between(2.0, 6.0),
+            "north_m": draw.between(-300.0, 300.0),
+            "east_m": draw.between(-300.0, 300.0),
+        }
     return None
 
 
@@ -130,24 +162,38 @@ def fault_of(draw: Draw) -> dict[str, Any] | None:
     """Any fault, or none, between 12 and 20 s."""
     at_s, unit = draw.between(12.0, 20.0), draw.one_of((1, 2, 3))
     most = {
-        "imu_freeze": {"unit": unit}, "imu_silent": {"unit": unit}, "imu_shout": {"unit": unit},
+        "imu_freeze": {"unit": unit},
+        "imu_silent": {"unit": unit},
+        "imu_shout": {"unit": unit},
         "imu_drift": {"unit": unit, "rate": draw.between(0.03, 0.5)},
         "imu_scale": {"unit": unit, "share": draw.between(0.0, 0.06)},
-        "radio_loss": {}, "radio_failsafe": {}, "gps_loss": {},
-        "gps_jump": {"north_m": draw.between(-50, 50), "east_m": draw.between(-50, 50),
-                     "until_s": at_s + draw.between(0.5, 2.5)},
-        "barometer_spike": {"pascal": draw.between(-300, 300),
-                            "until_s": at_s + draw.between(0.05, 0.6)},
-        "barometer_loss": {}, "barometer_stuck": {},
+        "radio_loss": {},
+        "radio_failsafe": {},
+        "gps_loss": {},
+        "gps_jump": {
+            "north_m": draw.between(-50, 50),
+            "east_m": draw.between(-50, 50),
+            "until_s": at_s + draw.between(0.5, 2.5),
+        },
+        "barometer_spike": {
+            "pascal": draw.between(-300, 300),
+            "until_s": at_s + draw.between(0.05, 0.6),
+        },
+        "barometer_loss": {},
+        "barometer_stuck": {},
         "gps_wild": {"metres": draw.between(20.0, 300.0), "until_s": at_s + draw.between(1.0, 4.0)},
         "magnetometer_current": {"microtesla_per_ampere": draw.between(0.05, 0.4)},
         "motor_weak": {"motor": draw.one_of((1, 2, 3, 4)), "share": draw.between(0.7, 0.95)},
         "battery_low": {"share": draw.between(0.03, 0.06)},
         "radio_noise": {"share": draw.between(0.002, 0.03)},
         "gps_noise": {"share": draw.between(0.001, 0.01)},
-        "task_overrun": {"task": draw.one_of(("Navigation", "GPS", "Position control",
-                                              "Foreground IMU", "State machine")),
-                         "runs": 3, "extra_us": draw.one_of((300, 1000))},
-    }  # fmt: skip
+        "task_overrun": {
+            "task": draw.one_of(
+                ("Navigation", "GPS", "Position control", "Foreground IMU", "State machine")
+            ),
+            "runs": 3,
+            "extra_us": draw.one_of((300, 1000)),
+        },
+    }
     kind = draw.one_of((HEALTHY, HEALTHY, HEALTHY, *most))
     return None if kind == HEALTHY else {"kind": kind, "at_s": at_s, **most[kind]}

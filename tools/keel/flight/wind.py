@@ -36,9 +36,13 @@ def gust(count: int, start_s: float, length_s: float, speed: float) -> Any:
 
 
 def drawn(
-    rng: np.random.Generator, duration_s: float, speed: float, from_deg: float, strength: float,
+    rng: np.random.Generator,
+    duration_s: float,
+    speed: float,
+    from_deg: float,
+    strength: float,
     gusts: Sequence[tuple[float, float, float]] = (),
-) -> Any:  # fmt: skip
+) -> Any:
     """How the air moves north, east and down every PERIOD_S; `from_deg` is where it comes from."""
     count = int(duration_s / PERIOD_S) + 2
     along_across_up = turbulence(rng, count, speed, strength)

@@ -22,5 +22,10 @@ from keel.install.provers import MACHDEP_FILE, TARGET_FLAGS, small_environment
 from keel.install.tools import Toolchain
 
 __all__ = [
-    "MACHDEP_FILE", "TARGET_FLAGS", "Found", "Toolchain", "ToolchainError", "small_environment",
-]  # fmt: skip
+    "MACHDEP_FILE",
+    "TARGET_FLAGS",
+    "Found",
+    "Toolchain",
+    "ToolchainError",
+    "small_environment",
+]

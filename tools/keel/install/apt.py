@@ -35,10 +35,14 @@ class Log:
             stream.flush()
             try:
                 return subprocess.run(
-                    list(command), cwd=cwd, stdin=subprocess.DEVNULL, stdout=stream, stderr=stream,
+                    list(command),
+                    cwd=cwd,
+                    stdin=subprocess.DEVNULL,
+                    stdout=stream,
+                    stderr=stream,
                     env={**os.environ, "DEBIAN_FRONTEND": "noninteractive", "LC_ALL": "C.UTF-8"},
                     check=False,
-                ).returncode  # fmt: skip
+                ).returncode
             except OSError as error:
                 stream.write(f"{error}\n".encode())
                 return 127

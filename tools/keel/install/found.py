@@ -64,14 +64,23 @@ def fingerprint(path: Path) -> Fingerprint:
 
 
 def found(
-    spec: Spec, version: str, origin: str, location: Path,
-    commands: dict[str, str] | None = None, parts: list[dict[str, str]] | None = None,
-) -> Found:  # fmt: skip
+    spec: Spec,
+    version: str,
+    origin: str,
+    location: Path,
+    commands: dict[str, str] | None = None,
+    parts: list[dict[str, str]] | None = None,
+) -> Found:
     """Build a Found for a file at `location`."""
     return Found(
-        tool=spec.name, version=version, origin=origin, commands=commands or {},
-        first_on_path={}, parts=parts or [], **fingerprint(location),
-    )  # fmt: skip
+        tool=spec.name,
+        version=version,
+        origin=origin,
+        commands=commands or {},
+        first_on_path={},
+        parts=parts or [],
+        **fingerprint(location),
+    )
 
 
 def answer(command: Sequence[str], environment: Mapping[str, str] | None = None) -> str:
@@ -132,9 +141,12 @@ class Finder:
         return ""
 
     def _in_directory(
-        self, spec: Spec, directory: Path, origin: str = "found",
+        self,
+        spec: Spec,
+        directory: Path,
+        origin: str = "found",
         parts: list[dict[str, str]] | None = None,
-    ) -> Found | None:  # fmt: skip
+    ) -> Found | None:
         """The tool, when this directory holds all its commands and the probe is satisfied."""
         commands = {name: str(directory / name) for name in spec.commands}
         if not all(os.access(path, os.X_OK) for path in commands.values()):

@@ -70,10 +70,18 @@ def frama_c(command: Command, answer: Answer, libc_specifications: bool) -> list
         preprocess += ["-nostdinc", "-isystem", own, "-idirafter", f"{share}/libc"]
         preprocess += ["-D__FC_MACHDEP_X86_32"]
     return [
-        *command("frama-c"), "-load-script", str(MACHDEP_FILE), "-machdep", MACHDEP,
-        "-enums", "gcc-short-enums", "-no-frama-c-stdlib", "-cpp-frama-c-compliant",
-        "-cpp-command", shlex.join(preprocess),
-    ]  # fmt: skip
+        *command("frama-c"),
+        "-load-script",
+        str(MACHDEP_FILE),
+        "-machdep",
+        MACHDEP,
+        "-enums",
+        "gcc-short-enums",
+        "-no-frama-c-stdlib",
+        "-cpp-frama-c-compliant",
+        "-cpp-command",
+        shlex.join(preprocess),
+    ]
 
 
 def goto_cc(command: Command) -> list[str]:
@@ -83,9 +91,13 @@ def goto_cc(command: Command) -> list[str]:
     """
     compiler = command("arm-none-eabi-gcc")
     return [
-        *command("goto-cc"), "--native-compiler", *compiler,
-        *TARGET_FLAGS, "-std=c99", "-ffreestanding",
-    ]  # fmt: skip
+        *command("goto-cc"),
+        "--native-compiler",
+        *compiler,
+        *TARGET_FLAGS,
+        "-std=c99",
+        "-ffreestanding",
+    ]
 
 
 def header_folders(command: Command, answer: Answer) -> list[Path]:

@@ -33,8 +33,9 @@ def install(tree: Tree, python: Sequence[str]) -> None:
         one = tree.scratch / "requirements.txt"
         one.write_text(f"{spec.package}=={spec.pin} --hash=sha256:{spec.sha256}\n")
         pip_install(tree, python, one)
-        tree.parts.append({"name": spec.package, "version": spec.pin, "source": SOURCE,
-                           "sha256": spec.sha256})  # fmt: skip
+        tree.parts.append(
+            {"name": spec.package, "version": spec.pin, "source": SOURCE, "sha256": spec.sha256}
+        )
         for command in spec.commands:
             program = tree.root / spec.program
             program.chmod(program.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)

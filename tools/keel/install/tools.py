@@ -28,10 +28,10 @@ def tell(line: str) -> None:
 class Toolchain:
     """Finds tools, and installs those that are missing.
 
-        tools = Toolchain()
-        tools.ensure("prove")
-        run([*tools.command("cbmc"), ...], environment=tools.environment())
-    """  # fmt: skip
+    tools = Toolchain()
+    tools.ensure("prove")
+    run([*tools.command("cbmc"), ...], environment=tools.environment())
+    """
 
     def __init__(self, cache: Path | None = None, lock: Lock | None = None) -> None:
         self.lock = lock or Lock.read()
@@ -151,9 +151,8 @@ class Toolchain:
         HostApt(self.cache.log).install(packages)
         finder = self._finder()
         failed = [
-            spec for spec in specs
-            if not self._accept(self._look(spec, finder), say, "installed")
-        ]  # fmt: skip
+            spec for spec in specs if not self._accept(self._look(spec, finder), say, "installed")
+        ]
         if failed:
             raise refusal("installed, but still not suitable", failed, finder)
 
@@ -211,8 +210,9 @@ class Toolchain:
             script.chmod(0o755)
             return f'path = "{script}"'
 
-        text = re.sub(r'^path = "(?P<program>.+)"$', started, configuration.read_text(),
-                      flags=re.MULTILINE)  # fmt: skip
+        text = re.sub(
+            r'^path = "(?P<program>.+)"$', started, configuration.read_text(), flags=re.MULTILINE
+        )
         write_text(configuration, text)
 
     def _machdep(self, spec: Spec) -> Found:

@@ -73,11 +73,13 @@ def read_answer(text: str) -> Answer:
             location = item.get("sourceLocation", {})
             properties.append(
                 {
-                    "name": str(item["property"]), "description": str(item["description"]),
-                    "status": str(item["status"]), "place": place(location),
+                    "name": str(item["property"]),
+                    "description": str(item["description"]),
+                    "status": str(item["status"]),
+                    "place": place(location),
                     "function": str(location.get("function", "")),
                 }
-            )  # fmt: skip
+            )
         goals += entry.get("goals", [])
         # A solver that crashes or says `unknown` makes it "error".
         ended = entry.get("cProverStatus") in ("success", "failure")

@@ -48,12 +48,20 @@ DIRECTIVE = re.compile(r"^// ?(\w+): *(.*?)\s*$")
 # Without field sensitivity of arrays, a structure of many members in an array is copied as one: the
 # symbolic execution of a step of the virtual unit takes 4 s, else 42 s.
 OPTIONS = {
-    "--unwind": True, "--unwindset": True, "--object-bits": True, "--external-sat-solver": True,
-    "--z3": False, "--fpa": False,
-    "--no-sat-preprocessor": False, "--no-simplify": False,
-    "--arrays-uf-always": False, "--arrays-uf-never": False, "--refine": False,
-    "--max-field-sensitivity-array-size": True, "--no-array-field-sensitivity": False,
-}  # fmt: skip
+    "--unwind": True,
+    "--unwindset": True,
+    "--object-bits": True,
+    "--external-sat-solver": True,
+    "--z3": False,
+    "--fpa": False,
+    "--no-sat-preprocessor": False,
+    "--no-simplify": False,
+    "--arrays-uf-always": False,
+    "--arrays-uf-never": False,
+    "--refine": False,
+    "--max-field-sensitivity-array-size": True,
+    "--no-array-field-sensitivity": False,
+}
 # Those that choose a solver. The coverage run (many easy questions, an answer to each) does without
 # or, where the answers are hard to find, has its own. Each is one of the pinned tools: a verdict
 # depends on which it is.
@@ -171,14 +179,17 @@ def read_harness(unit: Unit, path: Path) -> Harness:
                 f" leaves to builds: {word}"
             )
     return Harness(
-        unit=unit, path=path, sources=sources, defines=defines,
+        unit=unit,
+        path=path,
+        sources=sources,
+        defines=defines,
         options=tuple(search_options(path, given.get("cbmc", []))),
         covers=tuple(" ".join(given.get("covers", [])).split()),
         timeout=float(given.get("timeout", ["900"])[0]),
         replaces=tuple(" ".join(given.get("replaces", [])).split()),
         assertions_only=bool(checks),
         reach=tuple(search_options(path, given.get("reach", []))),
-    )  # fmt: skip
+    )
 
 
 def _is_left_to_builds(word: str, sources: Iterable[Path]) -> bool:

@@ -103,9 +103,11 @@ def _note_goal(log: Log, match: re.Match[str]) -> Goal:
 def read_log(text: str) -> Log:
     """Read the output of Frama-C, all stages."""
     log = Log(
-        functions=ANNOTATED.findall(text), assumed=ASSUMED.findall(text),
-        declared=DECLARED.findall(text), surveyed=SURVEYED in text,
-    )  # fmt: skip
+        functions=ANNOTATED.findall(text),
+        assumed=ASSUMED.findall(text),
+        declared=DECLARED.findall(text),
+        surveyed=SURVEYED in text,
+    )
     goal: Goal | None = None
     message: Message | None = None
     for line in text.splitlines():
@@ -164,9 +166,12 @@ def read_report(report: Mapping[str, Any]) -> Totals:
                     repeated += counts.get("total", 0) - 1
                     repeated_valid += max(counts.get("valid", 0) - 1, 0)
     return Totals(
-        int(overall.get("total", 0)), int(overall.get("valid", 0)), tuple(unproved),
-        repeated, repeated_valid,
-    )  # fmt: skip
+        int(overall.get("total", 0)),
+        int(overall.get("valid", 0)),
+        tuple(unproved),
+        repeated,
+        repeated_valid,
+    )
 
 
 def disagreement(log: Log, totals: Totals) -> str:

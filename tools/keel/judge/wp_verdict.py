@@ -28,9 +28,14 @@ HARMLESS = {
 
 
 def judge(
-    target: Target, output: str, report: str, root: Path, allowed: Sequence[str] = (),
-    recorded: Mapping[str, str] | None = None, pruned: frozenset[int] = frozenset(),
-) -> Result:  # fmt: skip
+    target: Target,
+    output: str,
+    report: str,
+    root: Path,
+    allowed: Sequence[str] = (),
+    recorded: Mapping[str, str] | None = None,
+    pruned: frozenset[int] = frozenset(),
+) -> Result:
     """What a run of WP shows, from its output and its JSON report.
 
     `pruned` are the passes that search for branches that cannot be taken.
@@ -73,13 +78,21 @@ def survey_problems(log: wplog.Log, file: str, proved: Collection[str]) -> list[
     if not log.surveyed:
         return [f"{file}: Frama-C does not read it: {'; '.join(map(str, log.messages))}"]
     return [
-        *(f"{text}: it is assumed, not proved; state a lemma or a contract"
-          for text in log.assumed),
-        *(f"{file}: Frama-C sees the function {name}, which the driver does not"
-          for name in log.functions if name not in proved),
-        *(f"{file}: {name} is declared here, and proved nowhere"
-          for name in log.declared if name not in proved),
-    ]  # fmt: skip
+        *(
+            f"{text}: it is assumed, not proved; state a lemma or a contract"
+            for text in log.assumed
+        ),
+        *(
+            f"{file}: Frama-C sees the function {name}, which the driver does not"
+            for name in log.functions
+            if name not in proved
+        ),
+        *(
+            f"{file}: {name} is declared here, and proved nowhere"
+            for name in log.declared
+            if name not in proved
+        ),
+    ]
 
 
 def _structure(target: Target, log: wplog.Log, report: str, output: str) -> list[str]:
@@ -142,8 +155,7 @@ def loop_problems(target: Target, log: wplog.Log) -> list[str]:
             variants = {match.group(1) for match in named if match}  # a goal may come in parts
             if loops != len(variants):
                 return [
-                    f"{target.name}: {loops} loops, but {len(variants)} loop variants:"
-                    " does it end?"
+                    f"{target.name}: {loops} loops, but {len(variants)} loop variants: does it end?"
                 ]
             return []
     return []

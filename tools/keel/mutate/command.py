@@ -49,24 +49,12 @@ from keel.base.verdict_cache import Cache, digest
 from keel.c.project import RECORDED_TIMES, Unit, find_units
 from keel.install import TARGET_FLAGS, Toolchain, ToolchainError, small_environment
 from keel.judge.settings import read_exceptions
-from keel.mutate import (
-    execution as mutant_execution,
-)
-from keel.mutate import (
-    records as mutant_records,
-)
-from keel.mutate import (
-    slips as mutant_slips,
-)
-from keel.mutate import (
-    standing as mutant_standing,
-)
-from keel.mutate import (
-    table as mutant_table,
-)
-from keel.mutate import (
-    verdicts as mutant_verdicts,
-)
+from keel.mutate import execution as mutant_execution
+from keel.mutate import records as mutant_records
+from keel.mutate import slips as mutant_slips
+from keel.mutate import standing as mutant_standing
+from keel.mutate import table as mutant_table
+from keel.mutate import verdicts as mutant_verdicts
 from keel.mutate.crew import Dask, Job, Threads, answer_order
 from keel.mutate.harnesses import survey
 from keel.mutate.mutation import BY_CBMC, BY_WP, CONFIRM, DRIVER, Tools, Trial
@@ -74,12 +62,7 @@ from keel.mutate.operators import Mutant, generate
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import Verdict
 from keel.prove.times import Times
-from keel.prove.verdict_keys import (
-    mutants_digest,
-    own_digest,
-    prover_answers,
-    tool_stamp,
-)
+from keel.prove.verdict_keys import mutants_digest, own_digest, prover_answers, tool_stamp
 
 CLANG = "clang-19"
 ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbmc", "wp")}
@@ -88,31 +71,58 @@ ENGINES = {"wp": ("wp",), "cbmc": ("cbmc",), "both": ("cbmc", "wp"), None: ("cbm
 def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Namespace:
     """The command line; a unit that does not exist is named, with those that do."""
     parser = argparse.ArgumentParser(description="Measure the proofs of units by mutants.")
-    parser.add_argument("--unit", nargs="+", metavar="U", default=list(names),
-                        help="the units whose code is broken; default: all")  # fmt: skip
+    parser.add_argument(
+        "--unit",
+        nargs="+",
+        metavar="U",
+        default=list(names),
+        help="the units whose code is broken; default: all",
+    )
     parser.add_argument(
         "--engine",
         choices=("wp", "cbmc", "both"),
         help="only this, or each apart; default: WP for what CBMC leaves",
     )
-    parser.add_argument("--function", metavar="F",
-                        help="only mutants of this function, and no report")  # fmt: skip
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
-                        help="mutants side by side; default: one a core")  # fmt: skip
-    parser.add_argument("--max-seconds", type=float, default=float("inf"), metavar="S",
-                        help="start no mutant after this time")  # fmt: skip
+    parser.add_argument(
+        "--function", metavar="F", help="only mutants of this function, and no report"
+    )
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="mutants side by side; default: one a core",
+    )
+    parser.add_argument(
+        "--max-seconds",
+        type=float,
+        default=float("inf"),
+        metavar="S",
+        help="start no mutant after this time",
+    )
     parser.add_argument("--list", action="store_true", help="print the mutants, try none")
-    parser.add_argument("--status", action="store_true",
-                        help="print the results that there are, try none")  # fmt: skip
-    parser.add_argument("--quick", action="store_true",
-                        help="short limits for WP; what they leave open is not killed")  # fmt: skip
-    parser.add_argument("--small", action="store_true",
-                        help="no more than executions and small harnesses")  # fmt: skip
-    parser.add_argument("--confirm", type=int, default=CONFIRM, metavar="N",
-                        help="CBMC confirms one of N executions; default: 50")  # fmt: skip
+    parser.add_argument(
+        "--status", action="store_true", help="print the results that there are, try none"
+    )
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="short limits for WP; what they leave open is not killed",
+    )
+    parser.add_argument(
+        "--small", action="store_true", help="no more than executions and small harnesses"
+    )
+    parser.add_argument(
+        "--confirm",
+        type=int,
+        default=CONFIRM,
+        metavar="N",
+        help="CBMC confirms one of N executions; default: 50",
+    )
     parser.add_argument("--fresh", action="store_true", help="try every mutant afresh")
-    parser.add_argument("--record", action="store_true",
-                        help="keep the results in specs/mutation.toml")  # fmt: skip
+    parser.add_argument(
+        "--record", action="store_true", help="keep the results in specs/mutation.toml"
+    )
     parser.add_argument("--order", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     for name in options.unit:
@@ -141,14 +151,18 @@ def tools_for(toolchain: Toolchain, root: Path, scratch: Path, trying: bool) -> 
     ]
     stamp = tool_stamp(toolchain.versions("prove"))
     return Tools(
-        frama_c=toolchain.frama_c(), goto_cc=toolchain.goto_cc(), cbmc=toolchain.command("cbmc"),
-        compiler=compiler, scratch=scratch, answers=prover_answers(root, stamp),
+        frama_c=toolchain.frama_c(),
+        goto_cc=toolchain.goto_cc(),
+        cbmc=toolchain.command("cbmc"),
+        compiler=compiler,
+        scratch=scratch,
+        answers=prover_answers(root, stamp),
         verdicts=toolchain.cache.folder / "verdicts",
         environment=small_environment({**toolchain.environment(), "TMPDIR": str(scratch)}),
         clang=toolchain.command(CLANG) if trying else (),
         clang_version=toolchain.versions("fuzz")[CLANG].version if trying else "",
         inputs=toolchain.cache.folder / "inputs",
-    )  # fmt: skip
+    )
 
 
 def stamp_of(toolchain: Toolchain) -> dict[str, str]:
@@ -191,7 +205,7 @@ class Measurement:
 
     def __init__(
         self, units: Sequence[Unit], options: argparse.Namespace, tools: Toolchain
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._options = options
         self.engines = ENGINES[options.engine]
         self.stamp = stamp_of(tools)
@@ -204,21 +218,38 @@ class Measurement:
         exceptions = read_exceptions(root / "proofs" / "units.toml", list(find_units(root)))
         times = Times(root / "build/prove/times.json", root / RECORDED_TIMES)
         cache = Cache(self._build / "cache", options.fresh)
-        beyond = {name: mutant_slips.numbers_beyond(bounds)
-                  for name, bounds in determined.bounds_of(root).items()}  # fmt: skip
+        beyond = {
+            name: mutant_slips.numbers_beyond(bounds)
+            for name, bounds in determined.bounds_of(root).items()
+        }
         around = mutant_slips.surroundings(clauses.header_texts(root), beyond)
         self.units: list[Measured] = []
         seen = survey(root)
         for unit in units:
             accepted = mutant_verdicts.read_equivalent(unit.folder / "equivalent.toml")
             trial = Trial(
-                unit, programs, trees, self.engines, options.engine == "both", cache, self.stamp,
-                exceptions[unit.name], times, not options.quick, seen, options.small, accepted,
+                unit,
+                programs,
+                trees,
+                self.engines,
+                options.engine == "both",
+                cache,
+                self.stamp,
+                exceptions[unit.name],
+                times,
+                not options.quick,
+                seen,
+                options.small,
+                accepted,
                 options.confirm,
-            )  # fmt: skip
+            )
             made = [generate(path, around) for path in unit.own_files]
-            found = [mutant for one in made for mutant in one.mutants
-                     if options.function in (None, mutant.function)]  # fmt: skip
+            found = [
+                mutant
+                for one in made
+                for mutant in one.mutants
+                if options.function in (None, mutant.function)
+            ]
             dropped = sum(one.dropped for one in made)
             self.units.append(Measured(unit, trial, found, dropped, {}))
 
@@ -241,8 +272,12 @@ class Measurement:
                 known = one.trial.known(mutant)
                 if known and known.is_lasting:
                     one.verdicts[place] = known
-        waiting = [(one, place) for one in self.units for place in range(len(one.found))
-                   if place not in one.verdicts]  # fmt: skip
+        waiting = [
+            (one, place)
+            for one in self.units
+            for place in range(len(one.found))
+            if place not in one.verdicts
+        ]
         total = sum(len(one.found) for one in self.units)
         print(f"{total} mutants, {total - len(waiting)} known before", flush=True)
         jobs: list[Job] = [(one.unit.name, one.trial, one.found[place]) for one, place in waiting]
@@ -254,8 +289,11 @@ class Measurement:
                 one.trial.keep(verdict)
             how = verdict.reason or "; ".join(f"{k} {v}" for k, v in verdict.engines.items())
             left = (time.monotonic() - start) / number * (len(jobs) - number) / 60
-            print(f"{number:>4}/{len(jobs)} {left:>4.0f} min left {verdict.status:<10}"
-                  f" {verdict.mutant}  [{how}]", flush=True)  # fmt: skip
+            print(
+                f"{number:>4}/{len(jobs)} {left:>4.0f} min left {verdict.status:<10}"
+                f" {verdict.mutant}  [{how}]",
+                flush=True,
+            )
 
     def conclude(self) -> int:
         """Report on each unit; the exit status."""
@@ -264,8 +302,10 @@ class Measurement:
             accepted = mutant_verdicts.read_equivalent(one.reasons)
             verdicts = [one.verdicts[place] for place in sorted(one.verdicts)]
             problems = [f"{name} is not proved even unchanged" for name in one.trial.unusable]
-            problems += [f"executed, and CBMC sees no failure: {text}"
-                         for text in one.trial.sample.contradictions]  # fmt: skip
+            problems += [
+                f"executed, and CBMC sees no failure: {text}"
+                for text in one.trial.sample.contradictions
+            ]
             problems += mutant_verdicts.settle(verdicts, accepted, not self._options.function)
             text = mutant_verdicts.report(
                 one.unit.name, verdicts, problems, one.dropped, one.digest
@@ -287,10 +327,14 @@ class Measurement:
 def executed(one: Measured) -> list[str]:
     """What was executed now, what CBMC said of it, and which harnesses were left out."""
     name, sample = one.unit.name, one.trial.sample
-    lines = [f"{name}: {sample.executed} killed by executions now, {sample.confirmed} of them"
-             " confirmed by CBMC"]  # fmt: skip
-    lines += [f"{name}: {harness} is not executed: {why}"
-              for harness, why in sorted(one.trial.not_executed.items())]  # fmt: skip
+    lines = [
+        f"{name}: {sample.executed} killed by executions now, {sample.confirmed} of them"
+        " confirmed by CBMC"
+    ]
+    lines += [
+        f"{name}: {harness} is not executed: {why}"
+        for harness, why in sorted(one.trial.not_executed.items())
+    ]
     return lines
 
 
@@ -303,10 +347,7 @@ def conclude(verdicts: Sequence[Verdict], problems: Sequence[str], engines: Sequ
         print(f"{verdict.status.upper()} {verdict.mutant.file.name}: {verdict.mutant}")
     for text in problems:
         print(f"FAILED {text}")
-    numbers = {
-        name: mutant_verdicts.count(verdicts, name)
-        for name in mutant_verdicts.STATUSES
-    }
+    numbers = {name: mutant_verdicts.count(verdicts, name) for name in mutant_verdicts.STATUSES}
     print(
         f"killed {numbers['killed']} of {len(verdicts) - numbers['stillborn']} mutants"
         f" ({numbers['equivalent']} equivalent), {numbers['survived']} survived unexplained"
@@ -360,7 +401,7 @@ def tell_status(units: Sequence[Unit], options: argparse.Namespace, toolchain: T
 
 def carry_out(
     order: Mapping[str, Any], units: Mapping[str, Unit], toolchain: Toolchain
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """Try the mutants that an order from another machine names."""
     line = ["--unit", order["unit"], "--jobs", "1", *(["--quick"] if order["quick"] else [])]
     line += ["--small"] if order["small"] else []
@@ -402,13 +443,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"mutate: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("mutate: interrupted; what was decided is kept, call it again to go on",
-              file=sys.stderr)  # fmt: skip
+        print(
+            "mutate: interrupted; what was decided is kept, call it again to go on", file=sys.stderr
+        )
         return 130
 
 
 def _ordered(
     order: Mapping[str, Any], units: Mapping[str, Unit], toolchain: Toolchain
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     toolchain.ensure("prove", "fuzz")
     return carry_out(order, units, toolchain)

@@ -65,9 +65,7 @@ class Threads:
 class Dask:
     """A cluster, by the address of its scheduler; the order says how to try."""
 
-    def __init__(
-        self, address: str, root: Path, stamp: str, order: Mapping[str, Any]
-    ) -> None:  # fmt: skip
+    def __init__(self, address: str, root: Path, stamp: str, order: Mapping[str, Any]) -> None:
         self._root = root
         self._stamp = stamp
         self._order = dict(order)
@@ -91,7 +89,7 @@ class Dask:
                 cluster_worker.carry_out, sent, PROGRAM, self._of(group, jobs), pure=False
             ): group
             for group in groups
-        }  # fmt: skip
+        }
         try:
             done = self._distributed.as_completed(
                 futures, with_results=True, loop=self._client.loop
@@ -125,8 +123,11 @@ def orders(jobs: Sequence[Job]) -> list[list[int]]:
     groups: dict[tuple[str, str], list[int]] = {}
     for place, (unit, _, mutant) in enumerate(jobs):
         groups.setdefault((unit, mutant.function), []).append(place)
-    return [group[start : start + ORDER] for group in groups.values()
-            for start in range(0, len(group), ORDER)]  # fmt: skip
+    return [
+        group[start : start + ORDER]
+        for group in groups.values()
+        for start in range(0, len(group), ORDER)
+    ]
 
 
 def answer_order(

@@ -50,17 +50,37 @@ from keel.mutate.verdicts import EXECUTED
 OWN = Path(__file__).resolve().parent
 RUNTIME = (OWN / "mutant_run.c", OWN / "mutant_run.h")
 # As the target has it where that can be had, and nothing that C leaves open taken for granted.
-LANGUAGE = ("-std=c99", "-ffreestanding", "-funsigned-char", "-fshort-enums",
-            "-ffp-contract=off", "-w", "-ffunction-sections")  # fmt: skip
-CHECKED = ("-O0", "-fsanitize=address,undefined", "-fsanitize-trap=undefined",
-           "-ftrivial-auto-var-init=zero")  # fmt: skip
+LANGUAGE = (
+    "-std=c99",
+    "-ffreestanding",
+    "-funsigned-char",
+    "-fshort-enums",
+    "-ffp-contract=off",
+    "-w",
+    "-ffunction-sections",
+)
+CHECKED = (
+    "-O0",
+    "-fsanitize=address,undefined",
+    "-fsanitize-trap=undefined",
+    "-ftrivial-auto-var-init=zero",
+)
 HOSTED = ("-fhosted", "-D_GNU_SOURCE", "-fno-sanitize=all")  # what executes, itself
-QUIET = {"ASAN_OPTIONS": "detect_leaks=0:symbolize=0:handle_segv=0:handle_sigbus=0:handle_sigfpe=0:"
-                         "handle_sigill=0:handle_abort=0:log_path=/dev/null"}  # fmt: skip
+QUIET = {
+    "ASAN_OPTIONS": "detect_leaks=0:symbolize=0:handle_segv=0:handle_sigbus=0:handle_sigfpe=0:"
+    "handle_sigill=0:handle_abort=0:log_path=/dev/null"
+}
 # How libFuzzer looks for inputs, always the same.
 SEARCHES = 300_000
-SEARCH = (f"-runs={SEARCHES}", "-seed=1", "-max_len=32768", "-len_control=0", "-verbosity=0",
-          "-timeout=10", "-rss_limit_mb=0")  # fmt: skip
+SEARCH = (
+    f"-runs={SEARCHES}",
+    "-seed=1",
+    "-max_len=32768",
+    "-len_control=0",
+    "-verbosity=0",
+    "-timeout=10",
+    "-rss_limit_mb=0",
+)
 INPUTS = 40_000  # of a harness: those that are kept, and variations
 LONGEST = 20.0  # seconds for all executions of a mutant
 ALONE = 8  # of the harnesses with a header that is mutated, each of which is compiled anew
@@ -173,11 +193,17 @@ class Wrapping:
         for field in self._known[type_]:
             inner, index = f"{place}.{field.name}", f"i{depth}"
             if not field.size:
-                lines += [f"{inner} = NULL;"] if field.pointer else self._filled(
-                    inner, field.type, depth)  # fmt: skip
+                lines += (
+                    [f"{inner} = NULL;"]
+                    if field.pointer
+                    else self._filled(inner, field.type, depth)
+                )
                 continue
-            body = [f"{inner}[{index}] = NULL;"] if field.pointer else self._filled(
-                f"{inner}[{index}]", field.type, depth + 1)  # fmt: skip
+            body = (
+                [f"{inner}[{index}] = NULL;"]
+                if field.pointer
+                else self._filled(f"{inner}[{index}]", field.type, depth + 1)
+            )
             end = f"sizeof({inner}) / sizeof({inner}[0])"
             lines += [f"for (size_t {index} = 0u; {index} < {end}; {index}++) {{", *body, "}"]
         return lines
@@ -185,30 +211,46 @@ class Wrapping:
     def _functions(self) -> list[str]:
         lines = []
         for name, type_ in sorted(self._types.items()):
-            lines += [f"{type_} {name}(void)", "{", f"{type_} value;",
-                      *self._filled("value", type_, 0), "return value;", "}"]  # fmt: skip
+            lines += [
+                f"{type_} {name}(void)",
+                "{",
+                f"{type_} value;",
+                *self._filled("value", type_, 0),
+                "return value;",
+                "}",
+            ]
         return lines
 
     def text(self, path: Path) -> str:
         """For this machine; the names are such that several harnesses make one program."""
         name = self._harness.name
         numbers = ", ".join(self._numbers) or "0.0"
-        return "\n".join([
-            *(f"#define {one} {name}_{one}" for one in sorted(self._types)),
-            f'#include "{path}"', *self._functions(),
-            f"static const double keel_run_numbers[] = {{{numbers}}};",
-            f"const keel_run_entry_t {name}_entry = {{",
-            f'"{name}", {name}, keel_run_numbers, {len(self._numbers)}u}};', "",
-        ])  # fmt: skip
+        return "\n".join(
+            [
+                *(f"#define {one} {name}_{one}" for one in sorted(self._types)),
+                f'#include "{path}"',
+                *self._functions(),
+                f"static const double keel_run_numbers[] = {{{numbers}}};",
+                f"const keel_run_entry_t {name}_entry = {{",
+                f'"{name}", {name}, keel_run_numbers, {len(self._numbers)}u}};',
+                "",
+            ]
+        )
 
     def replay(self, path: Path, values: Sequence[str]) -> str:
         """For CBMC: nothing is arbitrary any more."""
         table = ", ".join(f"{value}ull" for value in values) or "0"
-        return "\n".join([
-            "#define KEEL_RUN_REPLAY", "#include <stdint.h>",
-            f"static const uint64_t keel_run_values[] = {{{table}}};",
-            f'#include "{RUNTIME[1]}"', f'#include "{path}"', *self._functions(), "",
-        ])  # fmt: skip
+        return "\n".join(
+            [
+                "#define KEEL_RUN_REPLAY",
+                "#include <stdint.h>",
+                f"static const uint64_t keel_run_values[] = {{{table}}};",
+                f'#include "{RUNTIME[1]}"',
+                f'#include "{path}"',
+                *self._functions(),
+                "",
+            ]
+        )
 
 
 def replayed(kill: Kill, wrapping: Wrapping, checker: Cbmc, root: Path) -> bool | None:
@@ -226,8 +268,10 @@ def replayed(kill: Kill, wrapping: Wrapping, checker: Cbmc, root: Path) -> bool 
     answer = checker.check(alone, binary)
     if not answer.complete:
         return None
-    return any(item["status"] == "FAILURE" and item["description"] == kill.text
-               for item in answer.properties)  # fmt: skip
+    return any(
+        item["status"] == "FAILURE" and item["description"] == kill.text
+        for item in answer.properties
+    )
 
 
 # --- Programs -------------------------------------------------------------------------------------
@@ -245,9 +289,15 @@ class Executions:
     """The harnesses of a unit as programs, and what they say of mutants."""
 
     def __init__(
-        self, unit: Unit, clang: Sequence[str], version: str, seen: Iterable[Seen], scratch: Path,
-        cache: Cache, unchanged: Callable[[], Runner],
-    ) -> None:  # fmt: skip
+        self,
+        unit: Unit,
+        clang: Sequence[str],
+        version: str,
+        seen: Iterable[Seen],
+        scratch: Path,
+        cache: Cache,
+        unchanged: Callable[[], Runner],
+    ) -> None:
         self._root = unit.root.resolve()
         self._unit = unit.name
         self._clang = list(clang)
@@ -283,14 +333,13 @@ class Executions:
 
     def kills(
         self, mutant: Mutant, harnesses: Sequence[Harness], tree: Path, runner: Runner
-    ) -> Kill | None:  # fmt: skip
+    ) -> Kill | None:
         """An execution that refutes a mutant, which stands in a tree; None if there is none.
 
         Harnesses of other units that only call what they do not cover are left to CBMC.
         """
         function = mutant.function
-        near = [one for one in harnesses
-                if function in one.covers or one.unit.name == self._unit]  # fmt: skip
+        near = [one for one in harnesses if function in one.covers or one.unit.name == self._unit]
         order = sorted(near, key=lambda one: -self._kills[function, one.name])
         changed = mutant.file.resolve().relative_to(self._root)
         try:
@@ -303,9 +352,7 @@ class Executions:
             pass  # to this compiler it is no C
         return None
 
-    def _groups(
-        self, harnesses: Sequence[Harness], file: Path
-    ) -> Iterable[list[Harness]]:  # fmt: skip
+    def _groups(self, harnesses: Sequence[Harness], file: Path) -> Iterable[list[Harness]]:
         """Harnesses that make one program: where the mutant is in a header, each its own."""
         if file.suffix == ".h":
             usable = (one for one in harnesses if self._prepared(one))
@@ -318,7 +365,7 @@ class Executions:
 
     def _parts(
         self, group: Sequence[Harness], changed: Path, tree: Path, runner: Runner
-    ) -> Iterable[tuple[Path, list[Harness]]]:  # fmt: skip
+    ) -> Iterable[tuple[Path, list[Harness]]]:
         """The programs of a group: one, or one for each harness that goes with no other."""
         place = self._scratch / tree.name
         program = self._program(group, changed, tree, place, runner)
@@ -333,10 +380,21 @@ class Executions:
 
     def _compile(
         self, source: Path, target: Path, folder: Path, runner: Runner, extra: Sequence[str]
-    ) -> bool:  # fmt: skip
+    ) -> bool:
         target.parent.mkdir(parents=True, exist_ok=True)
-        command = [*self._clang, *LANGUAGE, *CHECKED, *include_options(folder), "-include",
-                   str(RUNTIME[1]), *extra, "-c", str(source), "-o", str(target)]  # fmt: skip
+        command = [
+            *self._clang,
+            *LANGUAGE,
+            *CHECKED,
+            *include_options(folder),
+            "-include",
+            str(RUNTIME[1]),
+            *extra,
+            "-c",
+            str(source),
+            "-o",
+            str(target),
+        ]
         return runner.run(command).status == 0
 
     def _object(self, source: Path, defines: tuple[str, ...], extra: Sequence[str] = ()) -> Path:
@@ -368,18 +426,28 @@ class Executions:
     def _table(self, harnesses: Sequence[Harness], folder: Path) -> Path:
         names = [one.name for one in harnesses]
         lines = [f"extern const keel_run_entry_t {name}_entry;" for name in names]
-        lines += ["const keel_run_entry_t *const keel_run_entries[] = {",
-                  ", ".join(f"&{name}_entry" for name in names), "};",
-                  f"const size_t keel_run_entry_count = {len(names)}u;", ""]  # fmt: skip
+        lines += [
+            "const keel_run_entry_t *const keel_run_entries[] = {",
+            ", ".join(f"&{name}_entry" for name in names),
+            "};",
+            f"const size_t keel_run_entry_count = {len(names)}u;",
+            "",
+        ]
         target = folder / f"{digest(names)[:16]}.table.c"
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text("\n".join(lines), encoding="utf-8")
         return target
 
     def _program(
-        self, harnesses: Sequence[Harness], changed: Path | None, tree: Path, place: Path,
-        runner: Runner, extra: Sequence[str] = (), more: Sequence[str] = (),
-    ) -> Path | None:  # fmt: skip
+        self,
+        harnesses: Sequence[Harness],
+        changed: Path | None,
+        tree: Path,
+        place: Path,
+        runner: Runner,
+        extra: Sequence[str] = (),
+        more: Sequence[str] = (),
+    ) -> Path | None:
         """A program of harnesses; what a mutant is in, or includes it, is compiled in its tree.
 
         None if they do not go together; what does not compile is an error.
@@ -409,8 +477,9 @@ class Executions:
         program = place / "program"
         linker = ["-fuse-ld=gold"] if shutil.which("ld.gold") else []  # which is faster
         linker += ["-Wl,--gc-sections"]  # as for CBMC, what nobody calls need not be whole
-        done = runner.run([*self._clang, *CHECKED, *linker, *more, *map(str, objects),
-                           "-o", str(program)])  # fmt: skip
+        done = runner.run(
+            [*self._clang, *CHECKED, *linker, *more, *map(str, objects), "-o", str(program)]
+        )
         return program if done.status == 0 else None
 
     def _closure(self, path: Path) -> frozenset[Path]:
@@ -451,8 +520,10 @@ class Executions:
         """All that the inputs of a harness depend on."""
         seen = self._seen[harness.name]
         read = {path: path.read_text(encoding="utf-8") for path in seen.files}
-        texts = {path.relative_to(self._root).as_posix(): csource.essence(text)
-                 for path, text in read.items()}  # fmt: skip
+        texts = {
+            path.relative_to(self._root).as_posix(): csource.essence(text)
+            for path, text in read.items()
+        }
         return digest([judge(), self._version, seen.command, texts])
 
     def _searched(self, harness: Harness, place: Path) -> dict[str, Any]:
@@ -470,8 +541,9 @@ class Executions:
         if re.search(rf"^PASSED {harness.name} 1 0 0 0$", first.output, re.M):
             return self._passing(harness, plain, place, b"", runner)  # nothing is arbitrary in it
         extra = ["-fsanitize=fuzzer-no-link", "-DKEEL_RUN_SEARCH"]
-        search = self._program([harness], None, self._root, folder, runner, extra,
-                               ["-fsanitize=fuzzer"])  # fmt: skip
+        search = self._program(
+            [harness], None, self._root, folder, runner, extra, ["-fsanitize=fuzzer"]
+        )
         if not search:
             return {"why": NOT_HERE}
         command = [str(search), *SEARCH, f"-artifact_prefix={folder}/", str(corpus)]
@@ -480,19 +552,27 @@ class Executions:
             return {"why": "fails on the unchanged code when it is executed"}
         inputs = b"".join(
             (path.stat().st_size // 8).to_bytes(4, "little") + path.read_bytes()
-            for path in sorted(corpus.iterdir()) if path.stat().st_size % 8 == 0
-        )  # fmt: skip
+            for path in sorted(corpus.iterdir())
+            if path.stat().st_size % 8 == 0
+        )
         return self._passing(harness, plain, place, inputs, runner)
 
     def _passing(
         self, harness: Harness, program: Path, place: Path, inputs: bytes, runner: Runner
-    ) -> dict[str, Any]:  # fmt: skip
+    ) -> dict[str, Any]:
         """The inputs that the program takes to the end, once all have passed."""
         place.write_bytes(inputs)
         if inputs:
             packed = place.with_suffix(".packed")
-            shell = ["sh", "-c", 'exec "$0" pack "$1" "$2" > "$3"', str(program), harness.name,
-                     str(place), str(packed)]  # fmt: skip
+            shell = [
+                "sh",
+                "-c",
+                'exec "$0" pack "$1" "$2" > "$3"',
+                str(program),
+                harness.name,
+                str(place),
+                str(packed),
+            ]
             runner.run(shell, 60.0, extra=QUIET)
             place.write_bytes(packed.read_bytes())
             if not place.stat().st_size:
@@ -506,9 +586,13 @@ class Executions:
     # Executing.
 
     def _execute(
-        self, program: Path, what: str, asked: Sequence[tuple[str, Path, int]], runner: Runner,
+        self,
+        program: Path,
+        what: str,
+        asked: Sequence[tuple[str, Path, int]],
+        runner: Runner,
         limit: float = LONGEST,
-    ) -> Finished:  # fmt: skip
+    ) -> Finished:
         words = [str(word) for one in asked for word in one]
         return runner.run([str(program), what, *words], limit, merged=False, extra=QUIET)
 
@@ -534,9 +618,7 @@ class Executions:
         assert ready
         return ready.inputs, ready.count
 
-    def _again(
-        self, program: Path, harness: Harness, number: int, runner: Runner
-    ) -> Kill | None:  # fmt: skip
+    def _again(self, program: Path, harness: Harness, number: int, runner: Runner) -> Kill | None:
         path, _ = self._inputs(harness.name)
         output = self._execute(program, "again", [(harness.name, path, number)], runner).output
         failed = re.search(r"^FAILED \w+ \d+ (.*)\nVALUES(.*)$", output, re.M)

@@ -26,14 +26,23 @@ class Seen:
         """How CBMC is asked about it, but for the places of files."""
         one = self.harness
         sources = [path.relative_to(one.unit.root).as_posix() for path in one.sources]
-        return [one.name, one.options, sources, one.covers, one.defines, one.timeout,
-                one.replaces, one.assertions_only]  # fmt: skip
+        return [
+            one.name,
+            one.options,
+            sources,
+            one.covers,
+            one.defines,
+            one.timeout,
+            one.replaces,
+            one.assertions_only,
+        ]
 
 
 def survey(root: Path) -> list[Seen]:
     """All harnesses of all units."""
-    read = [read_harness(unit, path)
-            for unit in find_units(root).values() for path in unit.harnesses]  # fmt: skip
+    read = [
+        read_harness(unit, path) for unit in find_units(root).values() for path in unit.harnesses
+    ]
     found = []
     for harness in read:
         files = closure(root, [harness.path, *harness.sources])

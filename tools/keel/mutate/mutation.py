@@ -84,11 +84,22 @@ class Trial:
     """
 
     def __init__(
-        self, unit: Unit, tools: Tools, trees: Trees, asked: Sequence[str], every: bool,
-        cache: Cache, stamp: Mapping[str, str], exceptions: Exceptions,
-        times: Times, patient: bool = True, seen: Sequence[Seen] | None = None,
-        small_only: bool = False, accepted: Collection[Identity] = (), confirm: int = CONFIRM,
-    ) -> None:  # fmt: skip
+        self,
+        unit: Unit,
+        tools: Tools,
+        trees: Trees,
+        asked: Sequence[str],
+        every: bool,
+        cache: Cache,
+        stamp: Mapping[str, str],
+        exceptions: Exceptions,
+        times: Times,
+        patient: bool = True,
+        seen: Sequence[Seen] | None = None,
+        small_only: bool = False,
+        accepted: Collection[Identity] = (),
+        confirm: int = CONFIRM,
+    ) -> None:
         self._unit = unit
         self._tools = tools
         self._trees = trees
@@ -115,10 +126,19 @@ class Trial:
         self._seen = {one.harness.name: one for one in linked}
         self._beside: dict[tuple[str, Path], str] = {}
         self.sample = Sample(confirm)
-        self._executions = Executions(
-            unit, tools.clang, tools.clang_version, linked, tools.scratch,
-            Cache(tools.inputs), lambda: self._runner(unit.root),
-        ) if tools.clang else None  # fmt: skip
+        self._executions = (
+            Executions(
+                unit,
+                tools.clang,
+                tools.clang_version,
+                linked,
+                tools.scratch,
+                Cache(tools.inputs),
+                lambda: self._runner(unit.root),
+            )
+            if tools.clang
+            else None
+        )
         self._small = Small({one.harness.name: one.files for one in linked}, self._unchanged)
         files = {*closure(unit.root, unit.own_files)}.union(*(one.files for one in linked))
         self._texts = {path: path.read_text(encoding="utf-8") for path in sorted(files)}
@@ -166,8 +186,11 @@ class Trial:
         """The verdict that was kept, if nothing that it depends on has changed."""
         keys = [self._key(mutant)]
         if self._engines[:1] == ["cbmc"] and not self._every:
-            keys += [self._kill_key(mutant, one) for one in self._linked
-                     if mutant.function in self._reached[one.name]]  # fmt: skip
+            keys += [
+                self._kill_key(mutant, one)
+                for one in self._linked
+                if mutant.function in self._reached[one.name]
+            ]
         kept = next((found for key in keys if (found := self._cache.get(key))), None)
         return Verdict.of(mutant, kept) if kept else None
 
@@ -240,8 +263,11 @@ class Trial:
         place = (harness.name, mutant.file)
         if place not in self._beside:
             root = self._unit.root
-            texts = {path.relative_to(root).as_posix(): csource.essence(self._texts[path])
-                     for path in self._seen[harness.name].files if path != mutant.file}  # fmt: skip
+            texts = {
+                path.relative_to(root).as_posix(): csource.essence(self._texts[path])
+                for path in self._seen[harness.name].files
+                if path != mutant.file
+            }
             self._beside[place] = digest([texts, self._seen[harness.name].command])
         changed = csource.essence(mutant.apply(self._texts[mutant.file]))
         stamp = started("cbmc", self._stamp_without(DRIVER, BY_WP))
@@ -256,13 +282,18 @@ class Trial:
     def _digest(self, texts: Mapping[Path, str], function: str) -> str:
         root = self._unit.root
         return digest(
-            {"mutant": function, "texts": {str(path.relative_to(root)): text
-                                           for path, text in texts.items()},
-             "harnesses": [one.command for one in self._seen.values()],
-             "exceptions": asdict(self._exceptions), "stamp": self._stamp_without(DRIVER),
-             "engines": self._engines, "every": self._every,
-             "stages": str(wp.THOROUGH), "patient": self._patient}
-        )  # fmt: skip
+            {
+                "mutant": function,
+                "texts": {str(path.relative_to(root)): text for path, text in texts.items()},
+                "harnesses": [one.command for one in self._seen.values()],
+                "exceptions": asdict(self._exceptions),
+                "stamp": self._stamp_without(DRIVER),
+                "engines": self._engines,
+                "every": self._every,
+                "stages": str(wp.THOROUGH),
+                "patient": self._patient,
+            }
+        )
 
     def _stamp_without(self, *apart: str) -> dict[str, str]:
         return {name: text for name, text in self._stamp.items() if name not in apart}
@@ -300,7 +331,7 @@ class Trial:
 
     def _by_cbmc(
         self, mutant: Mutant, unit: Unit, runner: Runner, patient: bool, asked: dict[str, str]
-    ) -> str:  # fmt: skip
+    ) -> str:
         """Whether a harness that covers the function fails; `asked` has what each said."""
         covering = [one for one in self._ranked(mutant) if mutant.function in one.covers]
         for original in covering:

@@ -26,13 +26,28 @@ from keel.mutate.slips import Change, Surroundings
 Others = dict[str, tuple[str, ...]]
 
 RELATIONS: Others = {
-    "<": ("<=", ">="), "<=": ("<", ">"), ">": (">=", "<="), ">=": (">", "<"),
-    "==": ("!=",), "!=": ("==",),
-}  # fmt: skip
+    "<": ("<=", ">="),
+    "<=": ("<", ">"),
+    ">": (">=", "<="),
+    ">=": (">", "<"),
+    "==": ("!=",),
+    "!=": ("==",),
+}
 ARITHMETIC: Others = {
-    "+": ("-",), "-": ("+",), "*": ("/",), "/": ("*",), "%": ("/",), "<<": (">>",), ">>": ("<<",),
-    "++": ("--",), "--": ("++",), "+=": ("-=",), "-=": ("+=",), "*=": ("/=",), "/=": ("*=",),
-}  # fmt: skip
+    "+": ("-",),
+    "-": ("+",),
+    "*": ("/",),
+    "/": ("*",),
+    "%": ("/",),
+    "<<": (">>",),
+    ">>": ("<<",),
+    "++": ("--",),
+    "--": ("++",),
+    "+=": ("-=",),
+    "-=": ("+=",),
+    "*=": ("/=",),
+    "/=": ("*=",),
+}
 LOGIC: Others = {"&&": ("||",), "||": ("&&",), "&": ("|",), "|": ("&",)}
 KINDS = {"relation": RELATIONS, "logic": LOGIC, "arithmetic": ARITHMETIC}
 # Other results, by type.
@@ -119,11 +134,18 @@ def generate(file: Path, around: Surroundings = ALONE) -> Generated:
             seen[function.name, before, after] += 1
             made.mutants.append(
                 Mutant(
-                    file, function.name, change.kind, change.start, change.end, change.replacement,
-                    text.count("\n", 0, change.start) + 1, before, after,
+                    file,
+                    function.name,
+                    change.kind,
+                    change.start,
+                    change.end,
+                    change.replacement,
+                    text.count("\n", 0, change.start) + 1,
+                    before,
+                    after,
                     seen[function.name, before, after],
                 )
-            )  # fmt: skip
+            )
     return made
 
 

@@ -30,8 +30,9 @@ NO_JUDGES = ("gcc", "newlib", "ocamlfind", "why3-config")
 
 def all_harnesses(root: Path) -> list[tuple[Harness, frozenset[Path]]]:
     """The harnesses of all units, each with the files that it is made of."""
-    read = [read_harness(unit, path)
-            for unit in find_units(root).values() for path in unit.harnesses]  # fmt: skip
+    read = [
+        read_harness(unit, path) for unit in find_units(root).values() for path in unit.harnesses
+    ]
     return [(one, frozenset(closure(root, [one.path, *one.sources]))) for one in read]
 
 
@@ -42,9 +43,11 @@ def killers(answers: Iterable[Mapping[str, str]]) -> frozenset[str]:
 
 
 def origin(
-    unit: Unit, harnesses: Sequence[tuple[Harness, frozenset[Path]]], tools: Mapping[str, Found],
+    unit: Unit,
+    harnesses: Sequence[tuple[Harness, frozenset[Path]]],
+    tools: Mapping[str, Found],
     judges: Collection[str],
-) -> dict[str, str]:  # fmt: skip
+) -> dict[str, str]:
     """Digests of what a result on a unit depends on, and each tool's version; `judges` are the
     names of the harnesses that killed.
 
@@ -61,14 +64,20 @@ def origin(
     equivalent = unit.folder / "equivalent.toml"
     return {
         "source": digest({_shown(path, root): _without_prose(texts[path]) for path in source}),
-        "proofs": digest({
-            "texts": {_shown(path, root): csource.essence(texts[path]) for path in apart},
-            "options": {one.name: [*one.defines, *one.replaces, *one.covers] for one, _ in linked},
-            "goals": read_goals(unit.goal_list, unit.goal_list.name).names,
-            "equivalent": equivalent.read_text(encoding="utf-8") if equivalent.is_file() else "",
-        }),
+        "proofs": digest(
+            {
+                "texts": {_shown(path, root): csource.essence(texts[path]) for path in apart},
+                "options": {
+                    one.name: [*one.defines, *one.replaces, *one.covers] for one, _ in linked
+                },
+                "goals": read_goals(unit.goal_list, unit.goal_list.name).names,
+                "equivalent": equivalent.read_text(encoding="utf-8")
+                if equivalent.is_file()
+                else "",
+            }
+        ),
         **{name: version_of(tool) for name, tool in tools.items() if name not in NO_JUDGES},
-    }  # fmt: skip
+    }
 
 
 def _without_prose(text: str) -> str:

@@ -20,9 +20,7 @@ from keel.c import source as csource
 from keel.c.declarations import Structures, structures
 from keel.c.syntax import Node, found, parse, span, written
 
-COMPOUND = (
-    "if_statement", "for_statement", "while_statement", "do_statement", "switch_statement",
-)  # fmt: skip
+COMPOUND = ("if_statement", "for_statement", "while_statement", "do_statement", "switch_statement")
 NO_STATEMENT = ("comment", "preproc_")
 JUNCTIONS = ("&&", "||")
 DECLARED = re.compile(r"(?:const\s+)?[A-Za-z_]\w*(?:\s*\*+\s*|\s+)(?:const\s+)?[A-Za-z_]\w*\s*;")
@@ -32,8 +30,9 @@ WRITES = re.compile(r"(?P<left>\w+(?:->|\.|\[)[\w.\[\]>+ -]*?)\s*[-+*/|&]?=(?!=)
 # A variable is written, or declared with a value; and what else may write in a value.
 COMPUTES = re.compile(
     r"(?:(?:const\s+)?\w+(?:\s*\*\s*(?:const\s+)?|\s+))?(\w+)\s*"
-    r"(?:[-+*/|&]?=(?!=)([^;]*)|\+\+|--);", re.S
-)  # fmt: skip
+    r"(?:[-+*/|&]?=(?!=)([^;]*)|\+\+|--);",
+    re.S,
+)
 SIDE_EFFECT = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)")
 LOCAL = re.compile(r"(?:[\w ]+[\s*]+)?\w+\s*[-+*/|&]?=(?!=)")
 CALL = re.compile(r"\b([a-z_]\w*)\s*\(")
@@ -168,7 +167,7 @@ def changes(text: str, code: str, block: Node, around: Surroundings) -> Iterator
 
 def changes_beyond(
     code: str, block: Node, numbers: Iterable[int], known: Structures
-) -> Iterator[Change]:  # fmt: skip
+) -> Iterator[Change]:
     """Slips that show at these numbers, or above, alone."""
     for number in numbers:
         for node in found(block, "subscript_expression"):
@@ -243,8 +242,10 @@ def _order(text: str, code: str, own: list[Item]) -> Iterator[Change]:
         if one.word == "if" and re.search(r"\breturn\b", first):
             if not LOCAL.match(second):
                 yield Change("early", one.start, two.end, exchanged)
-        elif not one.word and not DECLARED.fullmatch(first) and not (
-            _commute(first, second) or _are_apart(first, second, code)
+        elif (
+            not one.word
+            and not DECLARED.fullmatch(first)
+            and not (_commute(first, second) or _are_apart(first, second, code))
         ):
             yield Change("order", one.start, two.end, exchanged)
 
@@ -271,8 +272,10 @@ def _are_apart(first: str, second: str, code: str) -> bool:
     if any(SIDE_EFFECT.search(value) for value in (one[2] or "", two[2] or "")):
         return False
     others = ((one[1], second), (two[1], first))
-    return not any(re.search(rf"\b{name}\b", text) or re.search(rf"&\s*{name}\b", code)
-                   for name, text in others)  # fmt: skip
+    return not any(
+        re.search(rf"\b{name}\b", text) or re.search(rf"&\s*{name}\b", code)
+        for name, text in others
+    )
 
 
 def _branches(code: str, own: list[Item]) -> Iterator[Change]:

@@ -47,9 +47,12 @@ def small(harness: Harness, files: Iterable[Path]) -> Harness:
         options = _unwound(options, usual, least)
     options = _built_in(options)
     return replace(
-        harness, defines=tuple(defines.values()), options=options, assertions_only=True,
+        harness,
+        defines=tuple(defines.values()),
+        options=options,
+        assertions_only=True,
         timeout=min(TIME, harness.timeout),
-    )  # fmt: skip
+    )
 
 
 def _built_in(options: tuple[str, ...]) -> tuple[str, ...]:
@@ -83,9 +86,7 @@ def _unwound(options: tuple[str, ...], usual: int, least: int) -> tuple[str, ...
 class Small:
     """The small harnesses of a unit: which of them can be used, and which notice most."""
 
-    def __init__(
-        self, files: Mapping[str, Iterable[Path]], unchanged: Callable[[], Cbmc]
-    ) -> None:  # fmt: skip
+    def __init__(self, files: Mapping[str, Iterable[Path]], unchanged: Callable[[], Cbmc]) -> None:
         self._files = files
         self._unchanged = unchanged
         self._usable: dict[str, bool] = {}

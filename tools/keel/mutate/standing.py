@@ -76,8 +76,10 @@ def accepted(unit: Unit, record: Record) -> list[Survivor]:
     found = []
     for one in record.accepted:
         if one.entry > len(entries):
-            raise ToolError(f"{mutant_table.FILE}: {unit.name}: accepted: there is no entry"
-                            f" {one.entry} in proofs/{unit.name}/equivalent.toml")  # fmt: skip
+            raise ToolError(
+                f"{mutant_table.FILE}: {unit.name}: accepted: there is no entry"
+                f" {one.entry} in proofs/{unit.name}/equivalent.toml"
+            )
         (function, original, mutant, _), reason = entries[one.entry - 1]
         found.append(Survivor(function, one.line, original, mutant, ACCEPTED, reason))
     return found
@@ -94,8 +96,11 @@ def standings(
     except ToolError as error:
         problems += str(error).splitlines()
         results = Results()
-    problems += [f"{mutant_table.FILE}: there is no unit {name} with proofs"
-                 for name in results.unit if name not in proved]  # fmt: skip
+    problems += [
+        f"{mutant_table.FILE}: there is no unit {name} with proofs"
+        for name in results.unit
+        if name not in proved
+    ]
     for unit in units:
         if unit.name not in proved:
             continue

@@ -119,8 +119,11 @@ class Record(Table):
     def summary(self) -> dict[str, int]:
         """How many became what."""
         found = dict.fromkeys(STATUSES, 0)
-        found |= {"killed": self.killed.total, "equivalent": self.equivalent,
-                  "stillborn": self.stillborn}  # fmt: skip
+        found |= {
+            "killed": self.killed.total,
+            "equivalent": self.equivalent,
+            "stillborn": self.stillborn,
+        }
         for one in self.open:
             found[one.status] += 1
         return found
@@ -165,10 +168,17 @@ def _slips(record: Record) -> Iterator[tuple[str, str]]:
     if record.mutants != parts:
         yield "mutants", f"{record.mutants}, but those that are counted below add up to {parts}"
     if bool(record.killers) != bool(record.killed.by_harnesses):
-        yield "killers", (f"{len(record.killers)} harnesses, but {record.killed.by_harnesses}"
-                          " mutants are killed by one")  # fmt: skip
-    for key, names in (("killers", record.killers),
-                       ("accepted", [one.entry for one in record.accepted])):  # fmt: skip
+        yield (
+            "killers",
+            (
+                f"{len(record.killers)} harnesses, but {record.killed.by_harnesses}"
+                " mutants are killed by one"
+            ),
+        )
+    for key, names in (
+        ("killers", record.killers),
+        ("accepted", [one.entry for one in record.accepted]),
+    ):
         if len(set(names)) != len(names):
             yield key, "names something twice"
 
@@ -186,16 +196,22 @@ def keep(
     versions = {name: text for name, text in made_of.items() if name not in ("source", "proofs")}
     named = digest(versions)[:OF_TOOLS]
     record = Record(
-        source=made_of["source"], proofs=made_of["proofs"], tools=named,
+        source=made_of["source"],
+        proofs=made_of["proofs"],
+        tools=named,
         killers=sorted(mutant_records.killers(one.engines for one in verdicts)),
-        mutants=len(verdicts), killed=_killed(verdicts),
+        mutants=len(verdicts),
+        killed=_killed(verdicts),
         stillborn=sum(one.status == "stillborn" for one in verdicts),
-        same_code=_same_code(verdicts), accepted=_accepted(unit, verdicts),
-        open=_open(verdicts), problems=list(problems),
-    )  # fmt: skip
+        same_code=_same_code(verdicts),
+        accepted=_accepted(unit, verdicts),
+        open=_open(verdicts),
+        problems=list(problems),
+    )
     units = {**results.unit, unit.name: record}
-    write_text(unit.root / FILE, text_of(Results(tools={**results.tools, named: versions},
-                                                 unit=units)))  # fmt: skip
+    write_text(
+        unit.root / FILE, text_of(Results(tools={**results.tools, named: versions}, unit=units))
+    )
     return f"{unit.name}: {FILE} written"
 
 
@@ -206,8 +222,9 @@ def _whole(verdicts: Sequence[Verdict]) -> bool:
 
 def _killed(verdicts: Iterable[Verdict]) -> Killed:
     dead = [one.engines for one in verdicts if one.status == "killed"]
-    by_harnesses = [said for said in (engines.get("cbmc", "") for engines in dead)
-                    if said.startswith("killed")]  # fmt: skip
+    by_harnesses = [
+        said for said in (engines.get("cbmc", "") for engines in dead) if said.startswith("killed")
+    ]
     executed = sum(EXECUTED in said for said in by_harnesses)
     solved = len(by_harnesses) - executed
     return Killed(executed=executed, solved=solved, wp=len(dead) - len(by_harnesses))
@@ -237,12 +254,18 @@ def _accepted(unit: Unit, verdicts: Iterable[Verdict]) -> list[Accepted]:
 
 def _open(verdicts: Iterable[Verdict]) -> list[Open]:
     return [
-        Open.model_validate({
-            "function": one.mutant.function, "line": one.mutant.line,
-            "original": one.mutant.before, "mutant": one.mutant.after, "status": one.status,
-        })
-        for one in verdicts if one.status in ("survived", "undecided")
-    ]  # fmt: skip
+        Open.model_validate(
+            {
+                "function": one.mutant.function,
+                "line": one.mutant.line,
+                "original": one.mutant.before,
+                "mutant": one.mutant.after,
+                "status": one.status,
+            }
+        )
+        for one in verdicts
+        if one.status in ("survived", "undecided")
+    ]
 
 
 def text_of(results: Results) -> str:

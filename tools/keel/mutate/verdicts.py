@@ -36,10 +36,16 @@ class Verdict:
         """For the report."""
         mutant = self.mutant
         return {
-            "function": mutant.function, "kind": mutant.kind, "line": mutant.line,
-            "original": mutant.before, "mutant": mutant.after, "occurrence": mutant.occurrence,
-            "status": self.status, "reason": self.reason, "engines": self.engines,
-        }  # fmt: skip
+            "function": mutant.function,
+            "kind": mutant.kind,
+            "line": mutant.line,
+            "original": mutant.before,
+            "mutant": mutant.after,
+            "occurrence": mutant.occurrence,
+            "status": self.status,
+            "reason": self.reason,
+            "engines": self.engines,
+        }
 
     @property
     def outcome(self) -> dict[str, Any]:
@@ -98,8 +104,10 @@ def settle(
         elif verdict.status != "skipped":
             problems.append(f"equivalent.toml: needless, it is {verdict.status}: {verdict.mutant}")
     if complete:
-        problems += [f"equivalent.toml: there is no such mutant: {' | '.join(map(str, identity))}"
-                     for identity in unused]  # fmt: skip
+        problems += [
+            f"equivalent.toml: there is no such mutant: {' | '.join(map(str, identity))}"
+            for identity in unused
+        ]
     return problems
 
 
@@ -134,10 +142,14 @@ def report(
     """The report, as JSON; the digest says of what it holds."""
     summary: dict[str, Any] = {name: count(verdicts, name) for name in STATUSES}
     content = {
-        "unit": unit, "digest": digest, "summary": summary, "dropped": dropped,
-        "kinds": by_kind(verdicts), "problems": list(problems),
+        "unit": unit,
+        "digest": digest,
+        "summary": summary,
+        "dropped": dropped,
+        "kinds": by_kind(verdicts),
+        "problems": list(problems),
         "mutants": [verdict.as_dict() for verdict in verdicts],
-    }  # fmt: skip
+    }
     return json.dumps(content, indent=1) + "\n"
 
 

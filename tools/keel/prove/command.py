@@ -59,29 +59,59 @@ def size(text: str) -> str:
 def parse(arguments: Sequence[str] | None, names: Sequence[str]) -> argparse.Namespace:
     """The command line; a unit that does not exist is named, with those that do."""
     parser = argparse.ArgumentParser(description="Prove Keel with Frama-C/WP, CBMC and Gappa.")
-    parser.add_argument("--project", type=Path, metavar="FOLDER",
-                        help="a project that uses Keel; default: Keel itself")  # fmt: skip
+    parser.add_argument(
+        "--project",
+        type=Path,
+        metavar="FOLDER",
+        help="a project that uses Keel; default: Keel itself",
+    )
     parser.add_argument("--unit", nargs="+", metavar="U", help="only these units")
-    parser.add_argument("--kernel", action="store_true",
-                        help="only the scheduler, the voter, filter and PID")  # fmt: skip
+    parser.add_argument(
+        "--kernel", action="store_true", help="only the scheduler, the voter, filter and PID"
+    )
     parser.add_argument("--engine", choices=ENGINES, help="only this engine")
     parser.add_argument("--update-goals", action="store_true", help="rewrite proofs/UNIT/goals.txt")
     # One more than there are cores, as WP waits a moment for each goal.
-    parser.add_argument("-j", dest="width", type=int, default=(os.cpu_count() or 1) + 1,
-                        metavar="N", help="jobs side by side (default %(default)s)")  # fmt: skip
-    parser.add_argument("--fresh", action="store_true",
-                        help="prove everything, whatever verdicts are known")  # fmt: skip
-    parser.add_argument("--quick", action="store_true",
-                        help="give up early on what provers do not prove at once")  # fmt: skip
-    parser.add_argument("--size", type=size, action="append", default=[], metavar="NAME=N",
-                        help="of a build: KEEL_QUEUE_CAPACITY=8, KEEL_VOTER_SENSORS=3")  # fmt: skip
-    parser.add_argument("--patience", type=int, default=1, metavar="N",
-                        help="N times the processor time for every prover")  # fmt: skip
+    parser.add_argument(
+        "-j",
+        dest="width",
+        type=int,
+        default=(os.cpu_count() or 1) + 1,
+        metavar="N",
+        help="jobs side by side (default %(default)s)",
+    )
+    parser.add_argument(
+        "--fresh", action="store_true", help="prove everything, whatever verdicts are known"
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="give up early on what provers do not prove at once"
+    )
+    parser.add_argument(
+        "--size",
+        type=size,
+        action="append",
+        default=[],
+        metavar="NAME=N",
+        help="of a build: KEEL_QUEUE_CAPACITY=8, KEEL_VOTER_SENSORS=3",
+    )
+    parser.add_argument(
+        "--patience",
+        type=int,
+        default=1,
+        metavar="N",
+        help="N times the processor time for every prover",
+    )
     parser.add_argument("--shard", type=shard, metavar="N/M", help="only this part of the jobs")
-    parser.add_argument("--join", nargs="+", type=Path, metavar="FILE",
-                        help="prove nothing: take what the reports of all shards say")  # fmt: skip
-    parser.add_argument("--explain", metavar="NAME",
-                        help="why a goal, harness, assertion or wrong body fails")  # fmt: skip
+    parser.add_argument(
+        "--join",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help="prove nothing: take what the reports of all shards say",
+    )
+    parser.add_argument(
+        "--explain", metavar="NAME", help="why a goal, harness, assertion or wrong body fails"
+    )
     options = parser.parse_args(arguments)
     selected = options.unit or options.engine or options.quick or options.kernel or options.size
     if options.unit and options.kernel:
@@ -128,16 +158,23 @@ def prove(arguments: Sequence[str] | None) -> int:
     tools = Toolchain()
     tools.ensure("prove")
     chosen = tuple(
-        one for one in units.values()
+        one
+        for one in units.values()
         if (not options.unit or one.name in options.unit) and (not options.kernel or in_kernel(one))
-    )  # fmt: skip
+    )
     choice = Choice(
-        units=chosen, partial=len(chosen) < len(units) or bool(options.engine or options.size),
+        units=chosen,
+        partial=len(chosen) < len(units) or bool(options.engine or options.size),
         engines=(options.engine,) if options.engine else ENGINES,
-        width=options.width, verdicts=tools.cache.folder / "verdicts",
-        fresh=options.fresh, quick=options.quick, update_goals=options.update_goals,
-        patience=options.patience, defines=tuple(options.size),
-        shard=options.shard, join=tuple(path.resolve() for path in options.join or ()),
-    )  # fmt: skip
+        width=options.width,
+        verdicts=tools.cache.folder / "verdicts",
+        fresh=options.fresh,
+        quick=options.quick,
+        update_goals=options.update_goals,
+        patience=options.patience,
+        defines=tuple(options.size),
+        shard=options.shard,
+        join=tuple(path.resolve() for path in options.join or ()),
+    )
     session = Session(root, tools, choice)
     return session.explain(options.explain) if options.explain else session.run()

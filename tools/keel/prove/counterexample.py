@@ -163,8 +163,11 @@ def lines(state: Mapping[str, str]) -> list[str]:
 
 def changes(before: Mapping[str, str], after: Mapping[str, str]) -> list[str]:
     """What has changed from one state to the next."""
-    return [f"{name} = {new} (before: {before.get(name, 'nothing')})"
-            for name, new in after.items() if before.get(name) != new]  # fmt: skip
+    return [
+        f"{name} = {new} (before: {before.get(name, 'nothing')})"
+        for name, new in after.items()
+        if before.get(name) != new
+    ]
 
 
 def _variable(base: str, parts: Mapping[str, str]) -> list[str]:

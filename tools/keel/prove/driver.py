@@ -62,9 +62,14 @@ class Pool:
 
 
 def run_jobs(
-    jobs: Sequence[Job], cache: Cache, runner: Runner, pool: Pool, times: Times,
-    done: Callable[[Outcome], None], late: Callable[[Job, float], None] = lambda _job, _s: None,
-) -> list[Outcome]:  # fmt: skip
+    jobs: Sequence[Job],
+    cache: Cache,
+    runner: Runner,
+    pool: Pool,
+    times: Times,
+    done: Callable[[Outcome], None],
+    late: Callable[[Job, float], None] = lambda _job, _s: None,
+) -> list[Outcome]:
     """Have a verdict for every job; `done` hears of each as it comes, `late` of what takes long."""
     outcomes: list[Outcome] = []
     given_up: list[Outcome] = []
@@ -93,8 +98,10 @@ def run_jobs(
     for outcome in ended(waiting, pool.width, pool.room):
         if outcome.result.get("gave_up") and pool.again:
             given_up.append(outcome)
-            print(f"{outcome.job.label}: given up, asked again alone when all else is done",
-                  flush=True)  # fmt: skip
+            print(
+                f"{outcome.job.label}: given up, asked again alone when all else is done",
+                flush=True,
+            )
         else:
             finish(outcome)
     # More time proves nothing of a unit of which something else is known to be wrong.

@@ -67,8 +67,10 @@ def subjects(units: Iterable[Unit], report: Path) -> list[Subject]:
         found += [Subject(GOAL, unit, name) for name in dict.fromkeys(goals)]
         found += [Subject(HARNESS, unit, path.stem) for path in unit.harnesses]
         found += [Subject(WRONG, unit, wrong.name) for wrong in read_wrong_bodies(unit)]
-        found += [Subject(ASSERTION, unit, text, harness)
-                  for harness, text in sorted(_assertions(unit, seen))]  # fmt: skip
+        found += [
+            Subject(ASSERTION, unit, text, harness)
+            for harness, text in sorted(_assertions(unit, seen))
+        ]
     return found
 
 
@@ -114,8 +116,11 @@ class Explainer:
     def explain(self, subject: Subject) -> tuple[list[str], bool]:
         """The explanation, and whether all is well with the subject."""
         ways: dict[str, Callable[[Subject], tuple[list[str], bool]]] = {
-            GOAL: self._goal, HARNESS: self._harness, ASSERTION: self._harness, WRONG: self._wrong,
-        }  # fmt: skip
+            GOAL: self._goal,
+            HARNESS: self._harness,
+            ASSERTION: self._harness,
+            WRONG: self._wrong,
+        }
         return ways[subject.kind](subject)
 
     def _harness(self, subject: Subject) -> tuple[list[str], bool]:
@@ -192,8 +197,11 @@ def counterexample_lines(harness: Harness, answer: Answer) -> Iterator[str]:
     if called:
         yield "after it:"
         yield from (f"  {line}" for line in changes(found.before, found.after))
-        yield from (f"  {name} returned {value}" for name, value in found.returned.items()
-                    if not name.startswith(("any_", "nondet_")))  # fmt: skip
+        yield from (
+            f"  {name} returned {value}"
+            for name, value in found.returned.items()
+            if not name.startswith(("any_", "nondet_"))
+        )
 
 
 def _fault(wrong: WrongBody) -> Iterator[str]:
@@ -210,9 +218,14 @@ def _target_of(subject: Subject, exceptions: Exceptions) -> Target | None:
     fits = [
         target
         for target in targets(subject.unit)
-        if any(subject.name.startswith(name)
-               for name in ([f"{target.function}_"] if target.function else
-                            [f"lemma_{name}" for name in target.lemmas]))
-    ]  # fmt: skip
+        if any(
+            subject.name.startswith(name)
+            for name in (
+                [f"{target.function}_"]
+                if target.function
+                else [f"lemma_{name}" for name in target.lemmas]
+            )
+        )
+    ]
     best = max(fits, key=lambda target: len(target.name), default=None)
     return frames.restricted(best, exceptions) if best else None

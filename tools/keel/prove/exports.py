@@ -91,8 +91,11 @@ def suites(every: Iterable[Check]) -> dict[str, JUnitSuite]:
 
 def results(every: Iterable[Check]) -> list[SarifResult]:
     """What failed."""
-    return [SarifResult(check.rule, check.failure, *split_place(check.place))
-            for check in every if check.failure]  # fmt: skip
+    return [
+        SarifResult(check.rule, check.failure, *split_place(check.place))
+        for check in every
+        if check.failure
+    ]
 
 
 def summary(gathered: Gathered) -> str:
@@ -100,8 +103,12 @@ def summary(gathered: Gathered) -> str:
     lines = ["| unit | WP | CBMC | Gappa | wrong bodies refuted |", "|---|---|---|---|---|"]
     for name, unit in gathered.units.items():
         refuted = [*unit.negative.values(), *unit.wrong_bounds.values()]
-        cells = [(unit.wp_proved, unit.wp_total), (unit.cbmc_proved, unit.cbmc_total),
-                 (unit.gappa_proved, unit.gappa_total), (sum(refuted), len(refuted))]  # fmt: skip
+        cells = [
+            (unit.wp_proved, unit.wp_total),
+            (unit.cbmc_proved, unit.cbmc_total),
+            (unit.gappa_proved, unit.gappa_total),
+            (sum(refuted), len(refuted)),
+        ]
         numbers = [f"{good} of {total}" if total else "" for good, total in cells]
         lines.append(f"| {name} | {' | '.join(numbers)} |")
     lines += ["", f"Proved {gathered.proved} of {gathered.total} goals.", ""]

@@ -24,10 +24,14 @@ from keel.prove.driver import Job
 
 
 def wp_jobs(
-    units: Iterable[Unit], prover: wp.Wp, root: Path, stamp: Mapping[str, str],
-    exceptions: Mapping[str, Exceptions], stages: Sequence[wp.Stage] = wp.THOROUGH,
+    units: Iterable[Unit],
+    prover: wp.Wp,
+    root: Path,
+    stamp: Mapping[str, str],
+    exceptions: Mapping[str, Exceptions],
+    stages: Sequence[wp.Stage] = wp.THOROUGH,
     printed: Callable[[targets.Target], str] = lambda _: "",
-) -> list[Job]:  # fmt: skip
+) -> list[Job]:
     """A job for each function, and for the lemmas, of the units; `printed` is what WP prints."""
     jobs = []
     for unit in units:
@@ -36,8 +40,7 @@ def wp_jobs(
         for whole in targets.targets(unit):
             target = frames.restricted(whole, exceptions[unit.name])
 
-            execute = functools.partial(_prove, prover, printed, target, stages, allowed,
-                                        recorded)  # fmt: skip
+            execute = functools.partial(_prove, prover, printed, target, stages, allowed, recorded)
             key = functools.partial(wp_key, target, prover, root, stamp, allowed)
             theorem = f"{target.file.stem}:" if target.file in unit.theorems else ""
             jobs.append(Job(unit.name, "wp", theorem + target.name, key, execute))
@@ -50,32 +53,48 @@ def placeless(options: Iterable[str], root: Path) -> list[str]:
 
 
 def _prove(
-    prover: wp.Wp, printed: Callable[[targets.Target], str], target: targets.Target,
-    stages: Sequence[wp.Stage], allowed: Sequence[str], recorded: Mapping[str, str], room: int,
-) -> dict[str, Any]:  # fmt: skip
+    prover: wp.Wp,
+    printed: Callable[[targets.Target], str],
+    target: targets.Target,
+    stages: Sequence[wp.Stage],
+    allowed: Sequence[str],
+    recorded: Mapping[str, str],
+    room: int,
+) -> dict[str, Any]:
     result = prover.prove(target, stages, True, allowed, recorded, room)
     located.locate(result, functools.partial(printed, target))
     return result.as_dict()
 
 
 def wp_key(
-    target: targets.Target, prover: wp.Wp, root: Path, stamp: Mapping[str, str],
+    target: targets.Target,
+    prover: wp.Wp,
+    root: Path,
+    stamp: Mapping[str, str],
     allowed: Sequence[str],
-) -> str:  # fmt: skip
+) -> str:
     """What the verdict on a function, or on lemmas, depends on."""
     return digest(
         {
-            "kind": "wp", "stamp": dict(stamp), "options": placeless(prover.options(), root),
-            "selection": target.selection, "allowed": list(allowed),
-            "text": targets.dependencies(target, root), "file": target.file.name,
+            "kind": "wp",
+            "stamp": dict(stamp),
+            "options": placeless(prover.options(), root),
+            "selection": target.selection,
+            "allowed": list(allowed),
+            "text": targets.dependencies(target, root),
+            "file": target.file.name,
         }
-    )  # fmt: skip
+    )
 
 
 def survey_jobs(
-    units: Iterable[Unit], prover: wp.Wp, root: Path, stamp: Mapping[str, str],
-    known: frozenset[str], exceptions: Mapping[str, Exceptions],
-) -> list[Job]:  # fmt: skip
+    units: Iterable[Unit],
+    prover: wp.Wp,
+    root: Path,
+    stamp: Mapping[str, str],
+    known: frozenset[str],
+    exceptions: Mapping[str, Exceptions],
+) -> list[Job]:
     """A job for each file that WP proves: is there a function in it that this driver would prove
     nowhere, or anything that its annotations take for granted?"""
     jobs = []
@@ -113,9 +132,12 @@ def cbmc_jobs(
 
 
 def cbmc_key(
-    harness: Harness, checker: cbmc.Cbmc, root: Path, stamp: Mapping[str, str],
+    harness: Harness,
+    checker: cbmc.Cbmc,
+    root: Path,
+    stamp: Mapping[str, str],
     wrong: WrongBody | None = None,
-) -> str:  # fmt: skip
+) -> str:
     """What the verdict of a harness depends on, on the unit or on a wrong body.
 
     Contracts are comments to CBMC. Directives count as they were read, not as they stand there now.
@@ -134,16 +156,33 @@ def cbmc_key(
         texts[place] = csource.essence(wrong.text())
         expected = (wrong.name, wrong.expect, place, wrong.defines)
     sources = [shown(path, root) for path in harness.sources]
-    directives = [harness.name, harness.options, sources, harness.covers, harness.defines,
-                  harness.replaces, harness.assertions_only, harness.reach]
+    directives = [
+        harness.name,
+        harness.options,
+        sources,
+        harness.covers,
+        harness.defines,
+        harness.replaces,
+        harness.assertions_only,
+        harness.reach,
+    ]
     # What is replaced is proved by other harnesses, at whose text this one's verdict looks.
-    others = {shown(path, root): csource.essence(csource.read(path))
-              for name in harness.replaces for path in harnesses_of(root, name)}  # fmt: skip
+    others = {
+        shown(path, root): csource.essence(csource.read(path))
+        for name in harness.replaces
+        for path in harnesses_of(root, name)
+    }
     return digest(
-        {"kind": "cbmc", "stamp": dict(stamp), "options": placeless(checker.options(), root),
-         "texts": texts, "directives": directives, "expected": expected,
-         "others": others}
-    )  # fmt: skip
+        {
+            "kind": "cbmc",
+            "stamp": dict(stamp),
+            "options": placeless(checker.options(), root),
+            "texts": texts,
+            "directives": directives,
+            "expected": expected,
+            "others": others,
+        }
+    )
 
 
 def gappa_jobs(
@@ -152,8 +191,10 @@ def gappa_jobs(
     """A job for each file of bounds, and for each wrong one, of the units."""
 
     def key(path: Path) -> str:
-        texts = {shown(file, root): file.read_text(encoding="utf-8")
-                 for file in prover.dependencies(path)}  # fmt: skip
+        texts = {
+            shown(file, root): file.read_text(encoding="utf-8")
+            for file in prover.dependencies(path)
+        }
         return digest({"kind": "gappa", "stamp": dict(stamp), "texts": texts})
 
     jobs = []

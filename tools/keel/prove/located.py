@@ -64,9 +64,10 @@ def locate(result: Result, printed: Callable[[], str]) -> None:
         start = f"{goal['name']} is not proved"
         result.problems = [
             in_words(text.replace(f"({before})", f"({goal['place']})"))
-            if text.startswith(start) else text
+            if text.startswith(start)
+            else text
             for text in result.problems
-        ]  # fmt: skip
+        ]
 
 
 def line_of(goal: str, names: Sequence[str], sequents: Sequence[Sequent]) -> str:

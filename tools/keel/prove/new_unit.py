@@ -46,10 +46,18 @@ def new(arguments: Sequence[str] | None) -> int:
     parser = Parser(__doc__.partition("\n")[0], prog="new")
     parser.add_argument("--project", type=Path, required=True, metavar="FOLDER")
     parser.add_argument("--unit", default="", metavar="NAME", help="as in limiter.h")
-    parser.add_argument("--layer", default="", metavar="NAME",
-                        help="its folder below include/ and src/; default: the only one, or app")
-    parser.add_argument("--id", default="", metavar="LIM",
-                        help="what its requirements begin with; default: of the unit's name")
+    parser.add_argument(
+        "--layer",
+        default="",
+        metavar="NAME",
+        help="its folder below include/ and src/; default: the only one, or app",
+    )
+    parser.add_argument(
+        "--id",
+        default="",
+        metavar="LIM",
+        help="what its requirements begin with; default: of the unit's name",
+    )
     options = parser.parse_args(arguments)
     root: Path = options.project.resolve()
     name = checked_name("unit", options.unit)

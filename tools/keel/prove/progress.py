@@ -21,9 +21,11 @@ class Running:
     """Knows which jobs run since when; they start in threads of their own."""
 
     def __init__(
-        self, tell: Callable[[Job, float], None], expected: Callable[[Job], float | None],
+        self,
+        tell: Callable[[Job, float], None],
+        expected: Callable[[Job], float | None],
         clock: Callable[[], float] = time.monotonic,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Take what hears of a job that is late, with its seconds, and what a job should take."""
         self._tell = tell
         self._expected = expected

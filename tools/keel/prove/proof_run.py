@@ -12,18 +12,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from keel.audit import (
-    assertions,
-    clauses,
-    determined,
-    disguises,
-    harness_rules,
-    theorems,
-    unused,
-)
-from keel.audit import (
-    completeness as rules,
-)
+from keel.audit import assertions, clauses, determined, disguises, harness_rules, theorems, unused
+from keel.audit import completeness as rules
 from keel.base.files import write_text
 from keel.base.jobs import Runner
 from keel.base.verdict_cache import Cache
@@ -101,10 +91,13 @@ class Session:
         with self._programs() as (runner, scratch):
             explainer = explain.Explainer(
                 explain.Engines(
-                    self._checker(runner, scratch), self._prover(runner, scratch),
-                    exceptions, clauses.header_texts(self._root),
-                ), self._root,
-            )  # fmt: skip
+                    self._checker(runner, scratch),
+                    self._prover(runner, scratch),
+                    exceptions,
+                    clauses.header_texts(self._root),
+                ),
+                self._root,
+            )
             for subject in found:
                 text, well = explainer.explain(subject)
                 print("\n".join([*text, ""]), flush=True)
@@ -125,9 +118,7 @@ class Session:
         content = report.content(gathered, versions, seconds, self._choice.partial)
         write_text(target, report.as_text(content))
         if not gathered.shard:
-            write_text(
-                self._build / "determined.md", determined.as_markdown(gathered.decided)
-            )
+            write_text(self._build / "determined.md", determined.as_markdown(gathered.decided))
         exports.write(self._build, gathered)
         if gathered.success and not gathered.shard:
             told = theorems.told(self._root, gathered.requirements)
@@ -138,8 +129,11 @@ class Session:
 
     def _what_is_left(self) -> list[str]:
         """How to go on after a run that was not of all units."""
-        left = [name for name in find_units(self._root)
-                if name not in [unit.name for unit in self._choice.units]]  # fmt: skip
+        left = [
+            name
+            for name in find_units(self._root)
+            if name not in [unit.name for unit in self._choice.units]
+        ]
         if not left or self._root != KEEL:
             return []
         return [f"not looked at: {len(left)} units ({', '.join(left)}): make prove-all"]
@@ -172,8 +166,7 @@ class Session:
         else:
             cache = Cache(choice.verdicts, choice.fresh)
             pool = driver.Pool(choice.width, choice.patience, again=not choice.quick)
-            outcomes = driver.run_jobs(jobs, cache, runner, pool, times, console.done,
-                                       console.late)  # fmt: skip
+            outcomes = driver.run_jobs(jobs, cache, runner, pool, times, console.done, console.late)
             times.save()
             cache.prune()
         for outcome in outcomes:
@@ -209,9 +202,13 @@ class Session:
             write_text(path, text)
 
     def _jobs(
-        self, runner: Runner, scratch: Path, stamps: dict[str, dict[str, str]],
-        everything: dict[str, Unit], exceptions: dict[str, Exceptions],
-    ) -> list[driver.Job]:  # fmt: skip
+        self,
+        runner: Runner,
+        scratch: Path,
+        stamps: dict[str, dict[str, str]],
+        everything: dict[str, Unit],
+        exceptions: dict[str, Exceptions],
+    ) -> list[driver.Job]:
         """All jobs of the choice."""
         choice = self._choice
         jobs: list[driver.Job] = []
@@ -227,22 +224,34 @@ class Session:
 
     def _checker(self, runner: Runner, scratch: Path) -> cbmc.Cbmc:
         return cbmc.Cbmc(
-            self._tools.goto_cc(), self._tools.command("cbmc"), runner, self._root, scratch,
+            self._tools.goto_cc(),
+            self._tools.command("cbmc"),
+            runner,
+            self._root,
+            scratch,
             self._choice.defines,
-        )  # fmt: skip
+        )
 
     def _prover(self, runner: Runner, scratch: Path) -> wp.Wp:
         answers = prover_answers(self._root, tool_stamp(self._tools.versions("prove")))
         return wp.Wp(
-            self._tools.frama_c(), runner, self._root, scratch,
-            None if self._choice.fresh else answers, self._tools.command("ocamlfind"),
+            self._tools.frama_c(),
+            runner,
+            self._root,
+            scratch,
+            None if self._choice.fresh else answers,
+            self._tools.command("ocamlfind"),
             self._choice.defines,
-        )  # fmt: skip
+        )
 
     def _wp_jobs(
-        self, runner: Runner, scratch: Path, stamp: dict[str, str], everything: dict[str, Unit],
+        self,
+        runner: Runner,
+        scratch: Path,
+        stamp: dict[str, str],
+        everything: dict[str, Unit],
         exceptions: dict[str, Exceptions],
-    ) -> list[driver.Job]:  # fmt: skip
+    ) -> list[driver.Job]:
         choice = self._choice
         prover = self._prover(runner, scratch)
         known = frozenset(

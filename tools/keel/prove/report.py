@@ -284,8 +284,9 @@ class Console:
         """A job takes long: name it, and where it stands what helps."""
         self._forecast.late(job.label)
         start = f"{job.unit:<10} {KINDS[job.kind][0]:<5} {job.name:<37}"
-        print(f"{start} still runs after {seconds / 60:.0f} min: what helps, see {HELP}",
-              flush=True)  # fmt: skip
+        print(
+            f"{start} still runs after {seconds / 60:.0f} min: what helps, see {HELP}", flush=True
+        )
 
     @staticmethod
     def _numbers(outcome: Outcome) -> tuple[int, int]:
@@ -298,9 +299,7 @@ class Console:
         return int(not outcome.problems), 1
 
     @staticmethod
-    def _line(
-        job: Job, name: str, proved: int, total: int, seconds: float, left: str = ""
-    ) -> None:
+    def _line(job: Job, name: str, proved: int, total: int, seconds: float, left: str = "") -> None:
         engine, what = KINDS[job.kind]
         time = f"{seconds:.0f} s" if seconds else "known"
         numbers = f"{proved:>4} of {total:>4} {what}"
@@ -343,15 +342,16 @@ def closing_lines(gathered: Gathered) -> list[str]:
     if stale := sum(len(unit.stale) for unit in gathered.units.values()):
         lines.append(f"{stale} goals have a better prover than is recorded: run --update-goals")
     lines.append(f"verdicts: {gathered.known} known before, {gathered.fresh} had now")
-    engines = (
-        f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
-    )
+    engines = f"WP {gathered.wp_proved}, CBMC {gathered.cbmc_proved}, Gappa {gathered.gappa_proved}"
     if gathered.decided:
         lines.append(determined.summary(gathered.decided))
     if gathered.shard:
         lines.append(f"shard {gathered.shard['shard']}: see --join for the verdict on the whole")
-    return [*lines, f"{failed(gathered.all_problems)}proved {gathered.proved} of {gathered.total}"
-                    f" goals ({engines})"]  # fmt: skip
+    return [
+        *lines,
+        f"{failed(gathered.all_problems)}proved {gathered.proved} of {gathered.total}"
+        f" goals ({engines})",
+    ]
 
 
 def failed(problems: Sequence[str]) -> str:
@@ -387,9 +387,10 @@ def _unit(result: UnitResult, engines: Sequence[str]) -> dict[str, Any]:
     exceptions = result.exceptions
     outcomes = [outcome.as_dict() for outcome in result.outcomes]
     entry: dict[str, Any] = {
-        "problems": result.problems, "determined": outcomes,
+        "problems": result.problems,
+        "determined": outcomes,
         "seconds": dict(sorted(result.seconds.items())),
-    }  # fmt: skip
+    }
     if "wp" in engines:
         entry["wp"] = {
             "goals": result.wp_total,

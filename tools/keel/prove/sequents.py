@@ -34,11 +34,19 @@ LABEL = re.compile(r"'([^']+)'")
 MODEL = ("Type", "Init")
 # Words of a title, and what they are in a goal's name.
 WORDS = {
-    "Preservation": "preserved", "Establishment": "established", "Post-condition": "ensures",
-    "Pre-condition": "requires", "Invariant": "invariant", "Assertion": "assert",
-    "Decreasing": "decrease", "Positivity": "positive", "assigns": "assigns", "Assigns": "assigns",
-    "Loop": "loop", "Lemma": "lemma",
-}  # fmt: skip
+    "Preservation": "preserved",
+    "Establishment": "established",
+    "Post-condition": "ensures",
+    "Pre-condition": "requires",
+    "Invariant": "invariant",
+    "Assertion": "assert",
+    "Decreasing": "decrease",
+    "Positivity": "positive",
+    "assigns": "assigns",
+    "Assigns": "assigns",
+    "Loop": "loop",
+    "Lemma": "lemma",
+}
 
 
 @dataclass(frozen=True)
@@ -72,9 +80,10 @@ def _sequent(block: str, tags: Sequence[str]) -> Sequent | None:
     lets = {name: " ".join(text.split()) for name, text in LET.findall(body)}
     assumed = re.search(r"^Assume \{\n(.*?)^\}$", body, re.M | re.S)
     entries = [
-        entry for entry in ENTRY.finditer(assumed[1] if assumed else "")
+        entry
+        for entry in ENTRY.finditer(assumed[1] if assumed else "")
         if entry["kind"] not in MODEL
-    ]  # fmt: skip
+    ]
     known = [
         (entry["why"] or entry["kind"], readable(entry["text"].strip(" \n."), lets, tags))
         for entry in entries
@@ -82,10 +91,13 @@ def _sequent(block: str, tags: Sequence[str]) -> Sequent | None:
     said = VERDICT.findall(body)
     place = f"{match['file']}:{match['line']}" if match["file"] else ""
     return Sequent(
-        match["title"], place, tuple(known), readable(claim[1], lets, tags),
+        match["title"],
+        place,
+        tuple(known),
+        readable(claim[1], lets, tags),
         any(status == "Valid" for _, status in said),
         tuple(f"{prover}: {status}" for prover, status in said),
-    )  # fmt: skip
+    )
 
 
 def readable(text: str, lets: dict[str, str], tags: Sequence[str]) -> str:

@@ -77,9 +77,7 @@ def entries(
     }
 
 
-def joined(
-    jobs: Sequence[Job], files: Sequence[Path], made_of: Mapping[str, str]
-) -> list[Outcome]:
+def joined(jobs: Sequence[Job], files: Sequence[Path], made_of: Mapping[str, str]) -> list[Outcome]:
     """The outcome of every job, from the reports of all shards."""
     results = _results(files, made_of)
     missing = [job.label for job in jobs if job.label not in results]

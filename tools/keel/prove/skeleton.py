@@ -124,8 +124,9 @@ def model_header(one: Skeleton) -> str:
     """The declarations of the models."""
     unit = one.unit
     guard = f"MODEL_{unit.name.upper()}_H"
-    declared = "".join(f"{prototype(f'model_{name}', signature)};\n"
-                       for name, signature in one.functions.items())  # fmt: skip
+    declared = "".join(
+        f"{prototype(f'model_{name}', signature)};\n" for name, signature in one.functions.items()
+    )
     about = f"What the functions of {unit.layer}/{unit.name}.h do, as plainly as possible."
     return (
         f"{HEAD}/* {about} */\n#ifndef {guard}\n#define {guard}\n\n"
@@ -191,8 +192,12 @@ def proof_header(one: Skeleton) -> str:
     results = [signature.result for signature in one.functions.values()]
     if FLOAT in [*types, *results, *(field.type for field in fields)]:
         parts.append(FLOAT_SAME)
-    parts += [text for type_ in types if one.is_structure(type_)
-              for text in (_any(one, type_), _same(one, type_))]  # fmt: skip
+    parts += [
+        text
+        for type_ in types
+        if one.is_structure(type_)
+        for text in (_any(one, type_), _same(one, type_))
+    ]
     return "\n".join([*parts, "#endif\n"])
 
 
@@ -263,8 +268,11 @@ def harness(one: Skeleton, name: str) -> str:
         drawn += [f"    {signature.result} result_expected;"]
         middle = f"    result = {code};\n\n    result_expected = {modelled};\n"
         claims.append(_claim(one, signature.result, "result", label))
-    claims += [_claim(one, given.base, given.name, label)
-               for given in signature.parameters if given.written]  # fmt: skip
+    claims += [
+        _claim(one, given.base, given.name, label)
+        for given in signature.parameters
+        if given.written
+    ]
     source = unit.source.relative_to(unit.root).as_posix()
     lines = "".join(f"{line}\n" for line in drawn)
     return (

@@ -25,9 +25,13 @@ JUDGE = "judge"
 # What asks one engine.
 ASKERS = {
     "wp": (
-        "engines/wp.py", "engines/frama_modules.py", "engines/ask_recorded.ml",
-        "engines/find_contradictions.ml", "engines/find_assumptions.ml",
-        "engines/linear_filter.py", "install/prover_limits.py",
+        "engines/wp.py",
+        "engines/frama_modules.py",
+        "engines/ask_recorded.ml",
+        "engines/find_contradictions.ml",
+        "engines/find_assumptions.ml",
+        "engines/linear_filter.py",
+        "install/prover_limits.py",
     ),
     "cbmc": ("engines/cbmc.py", "engines/cbmc_build.py"),
     "gappa": ("engines/gappa.py",),
@@ -38,18 +42,32 @@ NOT_STARTED = {
     "wp": ("cbmc", "cadical"),
     "cbmc": ("ocamlfind", "frama-c", "why3", "alt-ergo", "cvc4", "gappa", "machdep"),
     "gappa": (
-        "ocamlfind", "frama-c", "why3", "alt-ergo", "cvc4", "z3", "machdep", "cbmc", "cadical"
+        "ocamlfind",
+        "frama-c",
+        "why3",
+        "alt-ergo",
+        "cvc4",
+        "z3",
+        "machdep",
+        "cbmc",
+        "cadical",
     ),
-}  # fmt: skip
+}
 # What judges a mutant: how each engine is asked, how its answers are read, what follows. What finds
 # functions and harnesses, makes mutants or prints is none of these: the key of a verdict has what
 # it finds, and a report its list of mutants.
 MUTANT_JUDGES = {
     "cbmc": (
-        "mutate/mutation.py", "mutate/small_harnesses.py", "judge/cbmc_answers.py", *ASKERS["cbmc"]
+        "mutate/mutation.py",
+        "mutate/small_harnesses.py",
+        "judge/cbmc_answers.py",
+        *ASKERS["cbmc"],
     ),
     "wp": (
-        "judge/wp_log.py", "judge/wp_targets.py", "judge/wp_verdict.py", "install/provers.py",
+        "judge/wp_log.py",
+        "judge/wp_targets.py",
+        "judge/wp_verdict.py",
+        "install/provers.py",
         *ASKERS["wp"],
     ),
 }

@@ -36,11 +36,23 @@ GROUPS = ("prove", "lint", "test", "coverage", "stack", "target")
 # What asks the tools, and the board that is run on the emulator.
 HOW = (
     "bsp",
-    *(f"tools/keel/{room}" for room in (
-        "analyse", "audit", "base", "boards", "c", "engines", "install/machdep", "judge", "prove",
-        "qualify", "test",
-    )),
-)  # fmt: skip
+    *(
+        f"tools/keel/{room}"
+        for room in (
+            "analyse",
+            "audit",
+            "base",
+            "boards",
+            "c",
+            "engines",
+            "install/machdep",
+            "judge",
+            "prove",
+            "qualify",
+            "test",
+        )
+    ),
+)
 STARTS = ROOT / "tools/keel/install/provers.py"
 
 
@@ -65,8 +77,11 @@ def how_asked() -> list[str]:
 
 def key_of(seed: Seed, found: Mapping[str, Found], how: Sequence[str]) -> str:
     """All that a verdict depends on."""
-    tools = {name: [one.version, one.sha256, one.parts] for name, one in found.items()
-             if name not in ("why3-config",)}  # fmt: skip
+    tools = {
+        name: [one.version, one.sha256, one.parts]
+        for name, one in found.items()
+        if name not in ("why3-config",)
+    }
     return digest({"seed": asdict(seed), "tools": tools, "how": how})
 
 
@@ -85,16 +100,24 @@ def qualify(tools: Toolchain, seeds: Sequence[Seed], cache: Cache) -> list[dict[
             print(f"{seed.name}: {wrong or 'detected'}", flush=True)
         else:
             wrong = ""
-        runs.append({"tool": seed.tool, "fault": seed.fault, "how": seed.trial,
-                     "version": found[seed.tool].version, "wrong": wrong})  # fmt: skip
+        runs.append(
+            {
+                "tool": seed.tool,
+                "fault": seed.fault,
+                "how": seed.trial,
+                "version": found[seed.tool].version,
+                "wrong": wrong,
+            }
+        )
     return runs
 
 
 def main(
-    arguments: Sequence[str] | None = None, root: Path = ROOT,
+    arguments: Sequence[str] | None = None,
+    root: Path = ROOT,
     seeds: Sequence[Seed] = (*SEEDS, *DECEPTIONS),
     known: Path | None = None,
-) -> int:  # fmt: skip
+) -> int:
     """Entry point."""
     parser = Parser("Show that each tool detects what it is trusted to detect.", "qualify")
     parser.add_argument("--fresh", action="store_true", help="ask also what is known")

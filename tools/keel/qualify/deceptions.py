@@ -25,31 +25,71 @@ int last(int x)
 """
 # Old, new, and what is said of it.
 ASSUMED = (
-    ("admit instead of assert, by a macro",
-     "//@ assert even(2);", "#define HOLDS admit\n    //@ HOLDS even(3);", "admit"),
+    (
+        "admit instead of assert, by a macro",
+        "//@ assert even(2);",
+        "#define HOLDS admit\n    //@ HOLDS even(3);",
+        "admit",
+    ),
     ("admit in two lines", "//@ assert even(2);", "/*@ ad\\\nmit even(3); */", "admit"),
     ("an admitted precondition", "requires x <= 99", "admit requires x <= 9", "admit"),
-    ("an admitted postcondition", "ensures \\result == x + 1", "admit ensures \\result == x",
-     "admit"),
+    (
+        "an admitted postcondition",
+        "ensures \\result == x + 1",
+        "admit ensures \\result == x",
+        "admit",
+    ),
     ("a lemma that is only checked", "lemma none", "check lemma none", "check"),
-    ("an axiom", "  @ lemma none: total(0) == 0;",
-     "  @ axiomatic A { axiom none: total(0) == 1; }", "axiomatic A"),
-    ("logic without a definition", "  @ lemma none: total(0) == 0;",
-     "  @ axiomatic A { logic integer other(integer n); }", "other is declared, and not defined"),
-    ("a logic function that is its own successor", "total(n - 1) + 2", "total(n) + 2",
-     "total is defined by itself"),
-    ("a logic function that goes up", "total(n - 1) + 2", "total(n + 1) + 2",
-     "total is defined by itself"),
-    ("a logic function whose end is passed by", "(n <= 0)", "(n == 0)",
-     "total is defined by itself"),
+    (
+        "an axiom",
+        "  @ lemma none: total(0) == 0;",
+        "  @ axiomatic A { axiom none: total(0) == 1; }",
+        "axiomatic A",
+    ),
+    (
+        "logic without a definition",
+        "  @ lemma none: total(0) == 0;",
+        "  @ axiomatic A { logic integer other(integer n); }",
+        "other is declared, and not defined",
+    ),
+    (
+        "a logic function that is its own successor",
+        "total(n - 1) + 2",
+        "total(n) + 2",
+        "total is defined by itself",
+    ),
+    (
+        "a logic function that goes up",
+        "total(n - 1) + 2",
+        "total(n + 1) + 2",
+        "total is defined by itself",
+    ),
+    (
+        "a logic function whose end is passed by",
+        "(n <= 0)",
+        "(n == 0)",
+        "total is defined by itself",
+    ),
     ("a predicate that is its own denial", "n % 2 == 0", "!even(n)", "even is defined by itself"),
-    ("an inductive definition", "  @ lemma none: total(0) == 0;",
-     "  @ inductive odd(integer n) { case one: odd(2); }", "inductive definition of odd"),
-    ("a function that need not end", "assigns \\nothing; */\nint last",
-     "terminates \\false; assigns \\nothing; */\nint last", "need not terminate"),
-    ("a ghost function without a body", "static int two(void) { return 2; } */",
-     "int two(void); */", "ghost function two has no body"),
-)  # fmt: skip
+    (
+        "an inductive definition",
+        "  @ lemma none: total(0) == 0;",
+        "  @ inductive odd(integer n) { case one: odd(2); }",
+        "inductive definition of odd",
+    ),
+    (
+        "a function that need not end",
+        "assigns \\nothing; */\nint last",
+        "terminates \\false; assigns \\nothing; */\nint last",
+        "need not terminate",
+    ),
+    (
+        "a ghost function without a body",
+        "static int two(void) { return 2; } */",
+        "int two(void); */",
+        "ghost function two has no body",
+    ),
+)
 
 BUILT = """\
 /* SPDX-License-Identifier: Apache-2.0 */
@@ -70,41 +110,95 @@ static inline uint32_t keel_box(uint32_t x)
 """
 RETURN = "    return x + KEEL_BOX_SIZE;"
 HIDDEN = (
-    ("code for one compiler", RETURN, f"#ifdef __OPTIMIZE__\n    x++;\n#endif\n{RETURN}",
-     "different code"),
-    ("code for one compiler, by a digraph", RETURN,
-     f"%:ifdef __OPTIMIZE__\n    x++;\n%:endif\n{RETURN}", "digraph"),
-    ("code that a build may leave out", RETURN, f"#ifndef NDEBUG\n    x++;\n#endif\n{RETURN}",
-     "different code"),
-    ("a size that chooses code", RETURN, f"#if KEEL_BOX_SIZE > 4u\n    x++;\n#endif\n{RETURN}",
-     "different code"),
-    ("another branch of a guard", "}\n#endif", "}\n#else\nstatic int other;\n#endif",
-     "different code"),
+    (
+        "code for one compiler",
+        RETURN,
+        f"#ifdef __OPTIMIZE__\n    x++;\n#endif\n{RETURN}",
+        "different code",
+    ),
+    (
+        "code for one compiler, by a digraph",
+        RETURN,
+        f"%:ifdef __OPTIMIZE__\n    x++;\n%:endif\n{RETURN}",
+        "digraph",
+    ),
+    (
+        "code that a build may leave out",
+        RETURN,
+        f"#ifndef NDEBUG\n    x++;\n#endif\n{RETURN}",
+        "different code",
+    ),
+    (
+        "a size that chooses code",
+        RETURN,
+        f"#if KEEL_BOX_SIZE > 4u\n    x++;\n#endif\n{RETURN}",
+        "different code",
+    ),
+    (
+        "another branch of a guard",
+        "}\n#endif",
+        "}\n#else\nstatic int other;\n#endif",
+        "different code",
+    ),
     ("a number of the compiler's own", RETURN, "    return x + __OPTIMIZE__;", "__OPTIMIZE__"),
-    ("a name of CBMC, pasted together", RETURN,
-     f"#define P(a, b) a##b\n    P(__CPRO, VER_assume)(x < 3);\n{RETURN}", "pastes together"),
-    ("a check that is switched off, by _Pragma", RETURN,
-     f'    _Pragma("CPROVER check disable \\"bounds\\"")\n{RETURN}', "_Pragma"),
+    (
+        "a name of CBMC, pasted together",
+        RETURN,
+        f"#define P(a, b) a##b\n    P(__CPRO, VER_assume)(x < 3);\n{RETURN}",
+        "pastes together",
+    ),
+    (
+        "a check that is switched off, by _Pragma",
+        RETURN,
+        f'    _Pragma("CPROVER check disable \\"bounds\\"")\n{RETURN}',
+        "_Pragma",
+    ),
     ("a pragma", RETURN, f"#pragma GCC optimize 3\n{RETURN}", "#pragma"),
     ("another file's name and line", RETURN, f'#line 1 "other.c"\n{RETURN}', "#line"),
-    ("code behind a comment that goes on", "/* A comment. */", "// A comment. \\\n    x++;",
-     "goes on outside"),
-    ("a comment that goes on by a trigraph", "/* A comment. */", "// A comment. ??/\n    x++;",
-     "trigraph"),
+    (
+        "code behind a comment that goes on",
+        "/* A comment. */",
+        "// A comment. \\\n    x++;",
+        "goes on outside",
+    ),
+    (
+        "a comment that goes on by a trigraph",
+        "/* A comment. */",
+        "// A comment. ??/\n    x++;",
+        "trigraph",
+    ),
     ("a text that is shown in another order", "A comment.", "A \u202e comment.", "U+202E"),
     ("assertions that a build may leave out", "<stdint.h>", "<assert.h>", "assert.h"),
-)  # fmt: skip
+)
 
 # Two states of a header of the user's, one behind the other.
 STATES = "#define LIMIT 4\n-----\n#define LIMIT 4\n"
 
 SEEDS = (
-    *(Seed("frama-c", "assumptions", fault, ANNOTATED, old, new, what)
-      for fault, old, new, what in ASSUMED),
-    *(Seed("arm-none-eabi-gcc", "disguises", fault, BUILT, old, new, what)
-      for fault, old, new, what in HIDDEN),
-    Seed("arm-none-eabi-gcc", "environment", "a header from a folder that CPATH names",
-         "int x;\n", "int x;", "#include <stray.h>", "stray.h: No such file"),
-    Seed("arm-none-eabi-gcc", "keys", "a header in <...> that changes behind a verdict", STATES,
-         "-----\n#define LIMIT 4", "-----\n#define LIMIT 5", "another key"),
-)  # fmt: skip
+    *(
+        Seed("frama-c", "assumptions", fault, ANNOTATED, old, new, what)
+        for fault, old, new, what in ASSUMED
+    ),
+    *(
+        Seed("arm-none-eabi-gcc", "disguises", fault, BUILT, old, new, what)
+        for fault, old, new, what in HIDDEN
+    ),
+    Seed(
+        "arm-none-eabi-gcc",
+        "environment",
+        "a header from a folder that CPATH names",
+        "int x;\n",
+        "int x;",
+        "#include <stray.h>",
+        "stray.h: No such file",
+    ),
+    Seed(
+        "arm-none-eabi-gcc",
+        "keys",
+        "a header in <...> that changes behind a verdict",
+        STATES,
+        "-----\n#define LIMIT 4",
+        "-----\n#define LIMIT 5",
+        "another key",
+    ),
+)

@@ -49,8 +49,13 @@ ENDINGS = {"gappa": "g", "alt-ergo": "why"}
 
 def wp(tools: Toolchain, file: Path, prover: str) -> list[str]:
     """The goals that WP does not prove with a prover."""
-    words = ["-wp-prover", prover, "-wp-timeout",
-             str(PROVER_SECONDS * CLOCK_PER_PROCESSOR), "-wp-status-all"]  # fmt: skip
+    words = [
+        "-wp-prover",
+        prover,
+        "-wp-timeout",
+        str(PROVER_SECONDS * CLOCK_PER_PROCESSOR),
+        "-wp-status-all",
+    ]
     said = _said_by_wp(tools, file, words)
     if not PROVED.search(said):
         raise ToolError(f"frama-c: no verdict:\n{said.strip()}")
@@ -130,8 +135,10 @@ def keys(tools: Toolchain, file: Path, option: str) -> list[str]:
 def write_project(root: Path) -> Unit:
     """A project of one unit that includes a header of its own in <...>."""
     write_text(root / "include/box/box.h", "#include <limit.h>\nint box(int x);\n")
-    write_text(root / "src/box/box.c",
-               '#include "box/box.h"\nint box(int x)\n{\n    return x + LIMIT;\n}\n')  # fmt: skip
+    write_text(
+        root / "src/box/box.c",
+        '#include "box/box.h"\nint box(int x)\n{\n    return x + LIMIT;\n}\n',
+    )
     return find_units(root)["box"]
 
 
@@ -147,8 +154,11 @@ def alt_ergo(tools: Toolchain, file: Path, option: str) -> list[str]:
 def eva(tools: Toolchain, file: Path, option: str) -> list[str]:
     """The alarms, and the contracts that do not name what is written."""
     found = Eva(tools, file.parent).analyse([file.name], ["."], ["main"])["main"]
-    writes = [f"assigns of {one.function}: {one.status}" for one in found.properties
-              if one.kind == "assigns clause" and one.status == "Unknown"]  # fmt: skip
+    writes = [
+        f"assigns of {one.function}: {one.status}"
+        for one in found.properties
+        if one.kind == "assigns clause" and one.status == "Unknown"
+    ]
     return [*(one.kind for one in found.alarms), *writes]
 
 
@@ -173,8 +183,14 @@ def gappa(tools: Toolchain, file: Path, option: str) -> list[str]:
 def cppcheck(tools: Toolchain, file: Path, option: str) -> list[str]:
     """The checks that find something."""
     report = file.with_suffix(".sarif")
-    words = ["--addon=misra", "--quiet", "--std=c99", "--enable=warning,style",
-             "--check-level=exhaustive", "--output-format=sarif"]  # fmt: skip
+    words = [
+        "--addon=misra",
+        "--quiet",
+        "--std=c99",
+        "--enable=warning,style",
+        "--check-level=exhaustive",
+        "--output-format=sarif",
+    ]
     output_of([*tools.command("cppcheck"), *words, f"--output-file={report}", file])
     results = json.loads(read_text(report))["runs"][0]["results"]
     return [result["ruleId"] for result in results]
@@ -225,11 +241,22 @@ def emulated(tools: Toolchain, file: Path, option: str) -> list[str]:
 
 
 TRIALS: dict[str, Trial] = {
-    "wp": wp, "smoke": smoke, "alt-ergo": alt_ergo, "eva": eva, "cbmc": cbmc, "gappa": gappa,
-    "cppcheck": cppcheck, "stack": stack, "sanitizers": sanitizers, "coverage": coverage,
-    "emulated": emulated, "assumptions": assumptions, "disguises": hidden,
-    "environment": environment, "keys": keys,
-}  # fmt: skip
+    "wp": wp,
+    "smoke": smoke,
+    "alt-ergo": alt_ergo,
+    "eva": eva,
+    "cbmc": cbmc,
+    "gappa": gappa,
+    "cppcheck": cppcheck,
+    "stack": stack,
+    "sanitizers": sanitizers,
+    "coverage": coverage,
+    "emulated": emulated,
+    "assumptions": assumptions,
+    "disguises": hidden,
+    "environment": environment,
+    "keys": keys,
+}
 
 
 def ask(tools: Toolchain, trial: str, text: str, option: str, folder: Path) -> list[str]:

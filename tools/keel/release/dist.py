@@ -124,9 +124,12 @@ def bill(root: Path, number: str, time: str) -> dict[str, Any]:
     """The bill of materials; what is named twice is listed once."""
     listed = {item["bom-ref"]: item for item in tools(root)}
     keel = {
-        "type": "firmware", "name": "keel", "version": number, "bom-ref": f"keel@{number}",
+        "type": "firmware",
+        "name": "keel",
+        "version": number,
+        "bom-ref": f"keel@{number}",
         "licenses": [{"license": {"id": "Apache-2.0"}}],
-    }  # fmt: skip
+    }
     return {
         "$schema": "http://cyclonedx.org/schema/bom-1.6.schema.json",
         "bomFormat": "CycloneDX",
@@ -150,10 +153,7 @@ def release(root: Path, out: Path) -> list[Path]:
     seconds, time = time_of(root)
     name = f"keel-{number}"
     bom = json.dumps(bill(root, number, time), indent=1) + "\n"
-    contents = {
-        f"{name}.cdx.json": bom.encode(),
-        f"{name}.tar.gz": archive(root, name, seconds),
-    }
+    contents = {f"{name}.cdx.json": bom.encode(), f"{name}.tar.gz": archive(root, name, seconds)}
     sums = [f"{hashlib.sha256(data).hexdigest()}  {file}\n" for file, data in contents.items()]
     contents["SHA256SUMS"] = "".join(sums).encode()
     out.mkdir(parents=True, exist_ok=True)

@@ -53,8 +53,9 @@ class Job:
 def prepared(job: Job) -> Recording:
     """A recording as it is replayed."""
     found = readers.read(job.path, job.frame)
-    if job.align == "yes" or (job.align == "auto" and job.path.suffix == ".npz"
-                              and len(found.units) > 1):  # fmt: skip
+    if job.align == "yes" or (
+        job.align == "auto" and job.path.suffix == ".npz" and len(found.units) > 1
+    ):
         found = recording.aligned(found)
     return recording.with_lead_in(recording.with_expected_field(found, job.expected), job.lead_s)
 
@@ -66,8 +67,10 @@ def means_of(job: Job, found: Recording) -> tuple[Track, Track] | None:
         return None
     copter = copter_of(job.library)
     alone = replace(found, field=None, pressure=None, fixes=None)
-    return (replayed(copter, alone, [recording.mean_unit(found.units)]),
-            replayed(copter, alone, [recording.mean_unit(found.units[:3])]))  # fmt: skip
+    return (
+        replayed(copter, alone, [recording.mean_unit(found.units)]),
+        replayed(copter, alone, [recording.mean_unit(found.units[:3])]),
+    )
 
 
 def replay_one(job: Job) -> dict[str, Any]:
@@ -94,20 +97,48 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = Parser("Replay recorded sensors through the copter's estimators.", "replay")
     parser.add_argument("file", metavar="FILE", help="a recording (.ulg, .csv, .npz), or a folder")
     parser.add_argument("--compare", action="store_true", help="VQF and a Mahony filter beside it")
-    parser.add_argument("--limit-degrees", type=float, metavar="D",
-                        help="exit status 1 when an inclination is off by more, rms, in motion")
-    parser.add_argument("--frame", choices=("frd", "flu"), default="frd",
-                        help="a CSV's axes: forward, right, down, or forward, left, up")
-    parser.add_argument("--align", choices=("auto", "yes", "no"), default="auto",
-                        help="turn units onto their mean (auto: those of an npz)")
-    parser.add_argument("--lead-in", type=float, default=recording.LEAD_S, metavar="S",
-                        help="rest that is put before it, in s (8)")
-    parser.add_argument("--field", type=float, nargs=2, metavar=("NORTH", "EAST"),
-                        help="the Earth's field where it was recorded, in uT")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
-                        help="recordings at a time")  # fmt: skip
-    parser.add_argument("--build", type=Path, default=BUILD, metavar="FOLDER",
-                        help="where the report and the pictures go")  # fmt: skip
+    parser.add_argument(
+        "--limit-degrees",
+        type=float,
+        metavar="D",
+        help="exit status 1 when an inclination is off by more, rms, in motion",
+    )
+    parser.add_argument(
+        "--frame",
+        choices=("frd", "flu"),
+        default="frd",
+        help="a CSV's axes: forward, right, down, or forward, left, up",
+    )
+    parser.add_argument(
+        "--align",
+        choices=("auto", "yes", "no"),
+        default="auto",
+        help="turn units onto their mean (auto: those of an npz)",
+    )
+    parser.add_argument(
+        "--lead-in",
+        type=float,
+        default=recording.LEAD_S,
+        metavar="S",
+        help="rest that is put before it, in s (8)",
+    )
+    parser.add_argument(
+        "--field",
+        type=float,
+        nargs=2,
+        metavar=("NORTH", "EAST"),
+        help="the Earth's field where it was recorded, in uT",
+    )
+    parser.add_argument(
+        "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="recordings at a time"
+    )
+    parser.add_argument(
+        "--build",
+        type=Path,
+        default=BUILD,
+        metavar="FOLDER",
+        help="where the report and the pictures go",
+    )
     parser.add_argument("--no-pictures", action="store_true")
     found = parser.parse_args(arguments)
     if not found.file:
@@ -134,10 +165,19 @@ def jobs_of(options: argparse.Namespace) -> list[Job]:
     if not paths:
         raise ToolError(f"{path}: has no file with {', '.join(readers.SUFFIXES)}")
     expected = (options.field[0], options.field[1]) if options.field else None
-    return [Job(one, options.build / "libcopter.so",
-                None if options.no_pictures else options.build / f"{one.name}.png",
-                options.compare, options.frame, options.align, options.lead_in, expected)
-            for one in paths]  # fmt: skip
+    return [
+        Job(
+            one,
+            options.build / "libcopter.so",
+            None if options.no_pictures else options.build / f"{one.name}.png",
+            options.compare,
+            options.frame,
+            options.align,
+            options.lead_in,
+            expected,
+        )
+        for one in paths
+    ]
 
 
 def all_replayed(jobs: Sequence[Job], width: int) -> list[dict[str, Any]]:
@@ -174,17 +214,26 @@ def replay(arguments: Sequence[str] | None) -> int:
     good = [result for result in results if "refused" not in result]
     limit: float | None = options.limit_degrees
     beyond = [result for result in good if limit is not None and is_beyond(result, limit)]
-    write_json(report, {"schema": SCHEMA, "sources_sha256": library.digest_of(),
-                        "limit_degrees": limit, "beyond_limit": [one["file"] for one in beyond],
-                        "recordings": results})  # fmt: skip
+    write_json(
+        report,
+        {
+            "schema": SCHEMA,
+            "sources_sha256": library.digest_of(),
+            "limit_degrees": limit,
+            "beyond_limit": [one["file"] for one in beyond],
+            "recordings": results,
+        },
+    )
     tell.tell(tables.console(), results)
     for result in results:
         if "refused" in result:
             print(f"replay: {result['refused']}", file=sys.stderr)
     where = report.relative_to(ROOT) if report.is_relative_to(ROOT) else report
-    print(f"replay: {len(good)} of {len(results)} recordings replayed"
-          + (f", {len(beyond)} beyond {limit:g} degrees" if limit is not None else "")
-          + f"; {where} has them")  # fmt: skip
+    print(
+        f"replay: {len(good)} of {len(results)} recordings replayed"
+        + (f", {len(beyond)} beyond {limit:g} degrees" if limit is not None else "")
+        + f"; {where} has them"
+    )
     return 2 if len(good) < len(results) else 1 if beyond else 0
 
 

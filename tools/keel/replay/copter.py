@@ -51,10 +51,12 @@ class Track:
 
 def stored(parameters: Mapping[str, float]) -> bytes:
     """A memory whose first slot has parameters, as bsp/common/slots.h lays it out."""
-    image = b"".join(name.encode().ljust(16, b"\0") + struct.pack("<Bf", 0, value)
-                     for name, value in parameters.items())  # fmt: skip
+    image = b"".join(
+        name.encode().ljust(16, b"\0") + struct.pack("<Bf", 0, value)
+        for name, value in parameters.items()
+    )
     head = struct.pack("<II", 1, len(image))
-    return b"\x4B" + head + image + struct.pack("<I", zlib.crc32(head + image))
+    return b"\x4b" + head + image + struct.pack("<I", zlib.crc32(head + image))
 
 
 def at_ticks(unit: Series, ticks: Any) -> tuple[Any, Any]:
@@ -95,8 +97,9 @@ def fixes_at(series: Series | None, ticks: Any) -> dict[int, bytes]:
     for time, row in zip(*series, strict=True) if series else ():
         tick = int(np.searchsorted(ticks, time))
         latitude, longitude, height, north, east, down, accuracy, pace = (float(one) for one in row)
-        found[tick] = frames.nav_pvt(tick, (latitude, longitude), height, (north, east, down),
-                                     accuracy, pace)  # fmt: skip
+        found[tick] = frames.nav_pvt(
+            tick, (latitude, longitude), height, (north, east, down), accuracy, pace
+        )
     return found
 
 

@@ -61,55 +61,71 @@ def attitude(recording: Recording, estimate: Series, valid: Any = None) -> dict[
         heading = np.full(len(heading), np.nan)
     elif valid is not None:
         heading = np.where(np.interp(time, estimate.time, valid) > 0.5, heading, np.nan)
-    return {name: {"all": size_of(error), "moving": size_of(error[moves])}
-            for name, error in (("inclination_deg", tilt), ("heading_deg", heading))}  # fmt: skip
+    return {
+        name: {"all": size_of(error), "moving": size_of(error[moves])}
+        for name, error in (("inclination_deg", tilt), ("heading_deg", heading))
+    }
 
 
 def spans(time: Any, flags: Any) -> list[tuple[float, float]]:
     """From when to when something holds."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(int), [0]])))
     last = len(time) - 1
-    return [(float(time[first]), float(time[min(end, last)]))
-            for first, end in zip(edges[::2], edges[1::2], strict=True)]  # fmt: skip
+    return [
+        (float(time[first]), float(time[min(end, last)]))
+        for first, end in zip(edges[::2], edges[1::2], strict=True)
+    ]
 
 
 def votes(track: Track, count: int) -> dict[str, Any]:
     """Shares of the votes by state; of each unit those it counted in, and when it was latched."""
     names, view = vote_states(), track.view
-    found: dict[str, Any] = {"units": count, "states": {
-        kind: {name: float((view["vote_state"][:, part] == number).mean())
-               for number, name in enumerate(names)}
-        for kind, part in CHANNELS.items()
-    }}  # fmt: skip
+    found: dict[str, Any] = {
+        "units": count,
+        "states": {
+            kind: {
+                name: float((view["vote_state"][:, part] == number).mean())
+                for number, name in enumerate(names)
+            }
+            for kind, part in CHANNELS.items()
+        },
+    }
     bits = view["used"][:, :, None] >> np.arange(6) & 1
-    found["counted"] = [[float(bits[:, unit, part].mean()) for part in CHANNELS.values()]
-                        for unit in range(3)]  # fmt: skip
+    found["counted"] = [
+        [float(bits[:, unit, part].mean()) for part in CHANNELS.values()] for unit in range(3)
+    ]
     found["latched"] = [
-        {"unit": unit + 1, "from_s": begin, "to_s": end} for unit in range(3)
+        {"unit": unit + 1, "from_s": begin, "to_s": end}
+        for unit in range(3)
         for begin, end in spans(track.time, view["latched"][:, unit] > 0)
-    ]  # fmt: skip
+    ]
     return found
 
 
 def distance(track: Track, mean: Track) -> dict[str, float]:
     """How far the votes' output is from another track's: rms, on the worst axis."""
     apart = track.view["vote"].astype(float) - mean.view["vote"].astype(float)
-    return {kind: float(np.sqrt((apart[:, part] ** 2).mean(0)).max())
-            for kind, part in CHANNELS.items()}  # fmt: skip
+    return {
+        kind: float(np.sqrt((apart[:, part] ** 2).mean(0)).max()) for kind, part in CHANNELS.items()
+    }
 
 
 def phases(track: Track) -> dict[str, float]:
     """Seconds in each."""
     step = float(np.median(np.diff(track.time)))
-    return {name: step * float((track.view["phase"] == number).sum())
-            for number, name in enumerate(PHASES)}  # fmt: skip
+    return {
+        name: step * float((track.view["phase"] == number).sum())
+        for number, name in enumerate(PHASES)
+    }
 
 
 def events(track: Track) -> Iterator[tuple[float, str]]:
     """What detectors said: in the copter's own words, or by what they changed."""
     yield from ((time, text) for time, text in track.words if not text.startswith("radio: "))
-    for name, words in (("phase", [f"attitude {phase}" for phase in PHASES]),
-                        ("heading_valid", ["heading not valid", "heading valid"])):  # fmt: skip
+    for name, words in (
+        ("phase", [f"attitude {phase}" for phase in PHASES]),
+        ("heading_valid", ["heading not valid", "heading valid"]),
+    ):
         value = track.view[name]
         for row in np.flatnonzero(np.diff(value.astype(int))) + 1:
             yield float(track.time[row]), words[int(value[row])]
@@ -132,8 +148,13 @@ def windows(series: Series, time: Any) -> Any:
     inside = (place >= 0) & (place < len(time) - 1)
     count = np.bincount(place[inside], minlength=len(time) - 1).astype(float)
     count[count == 0.0] = np.nan
-    return np.stack([np.bincount(place[inside], column[inside], len(time) - 1) / count
-                     for column in series.value.T], 1)  # fmt: skip
+    return np.stack(
+        [
+            np.bincount(place[inside], column[inside], len(time) - 1) / count
+            for column in series.value.T
+        ],
+        1,
+    )
 
 
 def alike(said: Any, true: Any) -> tuple[float, float] | None:
@@ -194,8 +215,10 @@ def unlike(found: tuple[float, float] | None) -> str:
     """What is told of turns that are not alike."""
     if found is None or (found[0] >= LIKE and RATIO[0] <= found[1] <= RATIO[1]):
         return ""
-    return (f"do not turn alike (correlation {found[0]:.2f}, ratio {found[1]:.2f}): swapped or "
-            "reversed axes, or another unit of measurement?")  # fmt: skip
+    return (
+        f"do not turn alike (correlation {found[0]:.2f}, ratio {found[1]:.2f}): swapped or "
+        "reversed axes, or another unit of measurement?"
+    )
 
 
 def doubts(recording: Recording) -> list[str]:
@@ -204,8 +227,10 @@ def doubts(recording: Recording) -> list[str]:
     for number, unit in enumerate(recording.units, 1):
         force = float(np.median(np.linalg.norm(unit.value[:, :3], axis=1)))
         if not 0.7 < force / GRAVITY < 1.4:
-            found.append(f"unit {number}: half of the specific forces are above {force:.2f} m/s^2, "
-                         f"expected {GRAVITY:.1f}: another unit of measurement?")  # fmt: skip
+            found.append(
+                f"unit {number}: half of the specific forces are above {force:.2f} m/s^2, "
+                f"expected {GRAVITY:.1f}: another unit of measurement?"
+            )
         if judge and (words := unlike(known_turns(unit, judge))):
             found.append(f"unit {number}: gyroscope and {judge_of(recording)} {words}")
         if judge and (off := off_upright(unit, judge)) is not None and off > UP_DEG:
@@ -223,8 +248,12 @@ def judge_of(recording: Recording) -> str | None:
     return "reference" if recording.reference else "recorder" if recording.estimate else None
 
 
-def measured(recording: Recording, track: Track, others: Mapping[str, Series],
-             means: tuple[Track, Track] | None) -> dict[str, Any]:  # fmt: skip
+def measured(
+    recording: Recording,
+    track: Track,
+    others: Mapping[str, Series],
+    means: tuple[Track, Track] | None,
+) -> dict[str, Any]:
     """All figures of a replay; from 0 s on."""
     seen = track.since(0.0)
     vote = votes(seen, len(recording.units))
@@ -232,13 +261,19 @@ def measured(recording: Recording, track: Track, others: Mapping[str, Series],
         vote["from_mean_of_all"] = distance(seen, means[0].since(0.0))
         vote["plain_mean_of_three"] = distance(means[1].since(0.0), means[0].since(0.0))
     return {
-        "file": str(recording.path), "duration_s": recording.duration_s,
+        "file": str(recording.path),
+        "duration_s": recording.duration_s,
         "judge": judge_of(recording),
-        "expected_field_ut": recording.expected, "notes": recording.notes,
-        "doubts": doubts(recording), "phases_s": phases(seen),
+        "expected_field_ut": recording.expected,
+        "notes": recording.notes,
+        "doubts": doubts(recording),
+        "phases_s": phases(seen),
         "heading_valid": float(seen.view["heading_valid"].mean()),
-        "attitude": {"keel": attitude(recording, seen.attitude, seen.view["heading_valid"]),
-                     **{name: attitude(recording, one) for name, one in others.items()}},
-        "votes": vote, "height_m": height(recording, seen),
+        "attitude": {
+            "keel": attitude(recording, seen.attitude, seen.view["heading_valid"]),
+            **{name: attitude(recording, one) for name, one in others.items()},
+        },
+        "votes": vote,
+        "height_m": height(recording, seen),
         "events": sorted([time, text] for time, text in events(track)),
-    }  # fmt: skip
+    }

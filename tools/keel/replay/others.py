@@ -38,8 +38,12 @@ def vqf(recording: Recording) -> Series:
         found = VQF(step).updateBatch(gyro, accel, np.ascontiguousarray(seen))["quat9D"]
     north, east = recording.expected or (1.0, 0.0)
     half = math.atan2(east, north) / 2.0  # Its north is the field's.
-    return Series(time, turns.times(np.array([math.cos(half), 0.0, 0.0, math.sin(half)]),
-                                    turns.times(np.array(NED), found)))  # fmt: skip
+    return Series(
+        time,
+        turns.times(
+            np.array([math.cos(half), 0.0, 0.0, math.sin(half)]), turns.times(np.array(NED), found)
+        ),
+    )
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -72,12 +76,15 @@ class Mahony:
             return found
         east = cross(down, north)
         here = unit_of(*seen)
-        flat = math.hypot(*(sum(a * b for a, b in zip(here, axis, strict=True))
-                            for axis in (north, east)))  # fmt: skip
+        flat = math.hypot(
+            *(sum(a * b for a, b in zip(here, axis, strict=True)) for axis in (north, east))
+        )
         depth = sum(a * b for a, b in zip(here, down, strict=True))
         along = flat * math.cos(self._course), flat * math.sin(self._course)
-        wanted = tuple(along[0] * n + along[1] * e + depth * d
-                       for n, e, d in zip(north, east, down, strict=True))  # fmt: skip
+        wanted = tuple(
+            along[0] * n + along[1] * e + depth * d
+            for n, e, d in zip(north, east, down, strict=True)
+        )
         more = cross(here, (wanted[0], wanted[1], wanted[2]))
         return found[0] + more[0], found[1] + more[1], found[2] + more[2]
 
@@ -85,9 +92,11 @@ class Mahony:
         """A step."""
         error = self._error(force, seen)
         b = self._bias
-        b = self._bias = (b[0] - BIAS_GAIN * self._step * error[0],
-                          b[1] - BIAS_GAIN * self._step * error[1],
-                          b[2] - BIAS_GAIN * self._step * error[2])  # fmt: skip
+        b = self._bias = (
+            b[0] - BIAS_GAIN * self._step * error[0],
+            b[1] - BIAS_GAIN * self._step * error[1],
+            b[2] - BIAS_GAIN * self._step * error[2],
+        )
         x, y, z = (self._step * (rate[k] - b[k] + GAIN * error[k]) for k in range(3))
         angle = math.sqrt(x * x + y * y + z * z)
         scale = math.sin(angle / 2.0) / angle if angle > 0.0 else 0.5

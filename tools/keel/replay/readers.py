@@ -18,8 +18,15 @@ from keel.base.files import read_text
 from keel.replay import ulogs
 from keel.replay.recording import FLAT, Recording, Series, begun, checked, unit_quaternions
 
-ARRAYS = {"rate_hz": 0, "gyroscope": 3, "accelerometer": 3, "magnetometer": 3, "reference": 4,
-          "moving": 0, **{f"unit_{number}": 7 for number in range(1, 5)}}  # fmt: skip
+ARRAYS = {
+    "rate_hz": 0,
+    "gyroscope": 3,
+    "accelerometer": 3,
+    "magnetometer": 3,
+    "reference": 4,
+    "moving": 0,
+    **{f"unit_{number}": 7 for number in range(1, 5)},
+}
 COLUMN = re.compile(
     r"(?P<plain>time_s|moving|pressure_pa|mag_[xyz]_ut|ref_[wxyz])"
     r"|(?P<sensor>accel_[xyz]_m_s2|gyro_[xyz]_(?:rad|deg)_s)(?:_(?P<unit>[1-4]))?"
@@ -40,8 +47,10 @@ def row_of(index: int) -> str:
 def read(path: Path, frame: str = "frd") -> Recording:
     """A recording of any kind."""
     kinds: dict[str, Callable[[], Recording]] = {
-        ".npz": lambda: read_npz(path), ".csv": lambda: read_csv(path, frame),
-        ".ulg": lambda: ulogs.read_ulog(path)}  # fmt: skip
+        ".npz": lambda: read_npz(path),
+        ".csv": lambda: read_csv(path, frame),
+        ".ulg": lambda: ulogs.read_ulog(path),
+    }
     if path.suffix not in kinds:
         raise ToolError(f"{path}: is none of {', '.join(SUFFIXES)}")
     return begun(kinds[path.suffix]())
@@ -85,8 +94,11 @@ def read_npz(path: Path) -> Recording:
     rows = [arrays[name] * FLAT for name in ("accelerometer", "gyroscope")]
     if len(rows[0]) != len(rows[1]):
         raise ToolError(f"{path}: accelerometer has {len(rows[0])} rows, gyroscope {len(rows[1])}")
-    found = Recording(path, [checked(path, "accelerometer or gyroscope", time, np.hstack(rows),
-                                     row_of)], notes=[note])  # fmt: skip
+    found = Recording(
+        path,
+        [checked(path, "accelerometer or gyroscope", time, np.hstack(rows), row_of)],
+        notes=[note],
+    )
     if "magnetometer" in arrays:
         found.field = checked(path, "magnetometer", time, arrays["magnetometer"] * FLAT, row_of)
     if "reference" in arrays:
@@ -102,8 +114,7 @@ def units_row(path: Path, name: str, array: Any) -> Series:
     return checked(path, name, array[:, 0], value, row_of)
 
 
-def reference_of(path: Path, time: Any, value: Any,
-                 place: Callable[[int], str]) -> Series | None:  # fmt: skip
+def reference_of(path: Path, time: Any, value: Any, place: Callable[[int], str]) -> Series | None:
     """Quaternions; those that are NaN altogether were not seen."""
     if len(time) != len(value):
         raise ToolError(f"{path}: reference: {len(value)} rows, but {len(time)} times")
@@ -124,8 +135,16 @@ def numbers_of(path: Path) -> tuple[list[str], Any]:
     header = [name.strip() for name in next(lines, [])]
     for column, name in enumerate(header, 1):
         if not COLUMN.fullmatch(name):
-            known = ["time_s", "accel_x_m_s2", "gyro_x_rad_s", "gyro_x_deg_s", "mag_x_ut", "ref_w",
-                     "moving", "pressure_pa"]  # fmt: skip
+            known = [
+                "time_s",
+                "accel_x_m_s2",
+                "gyro_x_rad_s",
+                "gyro_x_deg_s",
+                "mag_x_ut",
+                "ref_w",
+                "moving",
+                "pressure_pa",
+            ]
             raise ToolError(f"{path}:1: column {column}: {unknown('column', name, known)}")
         if header.index(name) + 1 < column:
             raise ToolError(f"{path}:1: column {column}: {name} once more")
@@ -133,8 +152,9 @@ def numbers_of(path: Path) -> tuple[list[str], Any]:
     for line, cells in enumerate(lines, 2):
         if len(cells) != len(header):
             raise ToolError(f"{path}:{line}: {len(cells)} cells, but {len(header)} columns")
-        rows.append([number_of(path, line, name, cell)
-                     for name, cell in zip(header, cells, strict=True)])  # fmt: skip
+        rows.append(
+            [number_of(path, line, name, cell) for name, cell in zip(header, cells, strict=True)]
+        )
     return header, np.array(rows, float).reshape(len(rows), len(header))
 
 
@@ -174,14 +194,22 @@ class Table:
         """A group of columns, without the lines in which all of it is empty."""
         value = self._rows[:, [self.header.index(name) for name in names]]
         rows = np.flatnonzero(~np.isnan(value).all(1))
-        return checked(self._path, f"{names[0]} or one beside it", self.time[rows],
-                       turn(value[rows]), lambda index: f"line {rows[index] + 2}")  # fmt: skip
+        return checked(
+            self._path,
+            f"{names[0]} or one beside it",
+            self.time[rows],
+            turn(value[rows]),
+            lambda index: f"line {rows[index] + 2}",
+        )
 
 
 def sensor_columns(suffix: str, unit: str) -> list[str]:
     """The six of a unit."""
-    return [f"{sensor}_{axis}_{unit if sensor == 'gyro' else 'm_s2'}{suffix}"
-            for sensor in ("accel", "gyro") for axis in "xyz"]  # fmt: skip
+    return [
+        f"{sensor}_{axis}_{unit if sensor == 'gyro' else 'm_s2'}{suffix}"
+        for sensor in ("accel", "gyro")
+        for axis in "xyz"
+    ]
 
 
 def unit_of(table: Table, suffix: str, axes: Any) -> Series | None:
@@ -198,11 +226,16 @@ def read_csv(path: Path, frame: str) -> Recording:
     """In Keel's frames, or in forward, left, up with z up in the Earth's frame."""
     table = Table(path)
     axes = FLAT if frame == "flu" else np.ones(3)
-    units = [unit for suffix in ("", "_1", "_2", "_3", "_4")
-             if (unit := unit_of(table, suffix, axes)) is not None]  # fmt: skip
+    units = [
+        unit
+        for suffix in ("", "_1", "_2", "_3", "_4")
+        if (unit := unit_of(table, suffix, axes)) is not None
+    ]
     if not units:
-        raise ToolError(f"{path}:1: the columns {', '.join(sensor_columns('', 'rad_s'))} are "
-                        "missing, with and without a unit's number")  # fmt: skip
+        raise ToolError(
+            f"{path}:1: the columns {', '.join(sensor_columns('', 'rad_s'))} are "
+            "missing, with and without a unit's number"
+        )
     found = Recording(path, units, notes=[f"read as {frame.upper()} by --frame"])
     if table.has(names := [f"mag_{axis}_ut" for axis in "xyz"]):
         found.field = table.series(names, lambda rows: rows * axes)

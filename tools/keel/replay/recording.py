@@ -68,8 +68,7 @@ class Recording:
         return float(max(unit.time[-1] for unit in self.units))
 
 
-def checked(path: Path, what: str, time: Any, value: Any,
-            place: Callable[[int], str]) -> Series:  # fmt: skip
+def checked(path: Path, what: str, time: Any, value: Any, place: Callable[[int], str]) -> Series:
     """A series whose numbers are finite and whose time does not run backwards; of rows of one time
     the last stays."""
     times, values = np.asarray(time, float), np.asarray(value, float)
@@ -79,13 +78,16 @@ def checked(path: Path, what: str, time: Any, value: Any,
         raise ToolError(f"{path}: {what}: {len(times)} rows, at least 2 are needed")
     bad = ~(np.isfinite(values.reshape(len(values), -1)).all(1) & np.isfinite(times))
     if bad.any():
-        raise ToolError(f"{path}: {place(int(np.argmax(bad)))}: {what} has a value that is no "
-                        "finite number")  # fmt: skip
+        raise ToolError(
+            f"{path}: {place(int(np.argmax(bad)))}: {what} has a value that is no finite number"
+        )
     steps = np.diff(times)
     if (steps < 0.0).any():
         row = int(np.argmax(steps < 0.0)) + 1
-        raise ToolError(f"{path}: {place(row)}: time runs backwards in {what}, from "
-                        f"{times[row - 1]:.6f} to {times[row]:.6f} s")  # fmt: skip
+        raise ToolError(
+            f"{path}: {place(row)}: time runs backwards in {what}, from "
+            f"{times[row - 1]:.6f} to {times[row]:.6f} s"
+        )
     return Series(times, values).where(np.append(steps > 0.0, True))
 
 
@@ -95,8 +97,10 @@ def unit_quaternions(path: Path, what: str, found: Series) -> Series:
     wrong = np.abs(length - 1.0) > 0.02
     if wrong.any():
         row = int(np.argmax(wrong))
-        raise ToolError(f"{path}: at {found.time[row]:.3f} s: {what} is no unit quaternion: its "
-                        f"length is {length[row]:.3f}")  # fmt: skip
+        raise ToolError(
+            f"{path}: at {found.time[row]:.3f} s: {what} is no unit quaternion: its "
+            f"length is {length[row]:.3f}"
+        )
     return Series(found.time, found.value / length[:, None])
 
 
@@ -104,8 +108,10 @@ def begun(recording: Recording) -> Recording:
     """Times from the first inertial sample on; what is earlier is left out."""
     start = min(float(unit.time[0]) for unit in recording.units)
     if recording.duration_s - start > LONGEST_S:
-        raise ToolError(f"{recording.path}: lasts {recording.duration_s - start:.0f} s, from "
-                        f"{start:.3f} s on; at most {LONGEST_S:.0f} are replayed")  # fmt: skip
+        raise ToolError(
+            f"{recording.path}: lasts {recording.duration_s - start:.0f} s, from "
+            f"{start:.3f} s on; at most {LONGEST_S:.0f} are replayed"
+        )
     moved: dict[str, Any] = {"units": [unit.shifted(-start) for unit in recording.units]}
     for name in ("field", "reference", "estimate", "moving", "pressure", "height", "fixes"):
         series = getattr(recording, name)
@@ -165,8 +171,9 @@ def with_expected_field(recording: Recording, given: tuple[float, float] | None)
     if given or recording.expected or recording.field is None:
         return with_field(recording, given or recording.expected)
     begin = max(known_at_start(recording) or 0.0, float(recording.field.time[0]))
-    first = recording.field.where((recording.field.time >= begin)
-                                  & (recording.field.time <= begin + FIRST_S))  # fmt: skip
+    first = recording.field.where(
+        (recording.field.time >= begin) & (recording.field.time <= begin + FIRST_S)
+    )
     if known_at_start(recording) is not None and recording.judge is not None:
         by = "the reference" if recording.reference else "the recorder's estimate"
         turn = turns.between(recording.judge.value, recording.judge.time, first.time)
@@ -176,21 +183,27 @@ def with_expected_field(recording: Recording, given: tuple[float, float] | None)
     else:
         unit = mean_unit(recording.units)
         force = unit.value[unit.time <= FIRST_S, :3].mean(0)
-        seen = turns.turned(turns.level(-force, first.value.mean(0), (1.0, 0.0)),
-                            first.value.mean(0))  # fmt: skip
-        expected, why = (float(np.hypot(seen[0], seen[1])), 0.0), \
-            "the first second, turned by gravity; north is magnetic"  # fmt: skip
+        seen = turns.turned(
+            turns.level(-force, first.value.mean(0), (1.0, 0.0)), first.value.mean(0)
+        )
+        expected, why = (
+            (float(np.hypot(seen[0], seen[1])), 0.0),
+            "the first second, turned by gravity; north is magnetic",
+        )
     note = f"expected field {expected[0]:.2f} uT north, {expected[1]:.2f} uT east: of {why}"
     return with_field(replace(recording, notes=[*recording.notes, note]), expected)
 
 
 def with_field(recording: Recording, expected: tuple[float, float] | None) -> Recording:
     """With a field that the copter's parameters take."""
-    if expected and not (max(map(abs, expected)) <= FIELD_MOST
-                         and np.hypot(*expected) >= FIELD_LEAST):  # fmt: skip
-        raise ToolError(f"{recording.path}: the horizontal field would be {expected[0]:.3g} uT "
-                        f"north and {expected[1]:.3g} uT east, expected {FIELD_LEAST:g} to "
-                        f"{FIELD_MOST:g}: is the magnetometer in uT?")  # fmt: skip
+    if expected and not (
+        max(map(abs, expected)) <= FIELD_MOST and np.hypot(*expected) >= FIELD_LEAST
+    ):
+        raise ToolError(
+            f"{recording.path}: the horizontal field would be {expected[0]:.3g} uT "
+            f"north and {expected[1]:.3g} uT east, expected {FIELD_LEAST:g} to "
+            f"{FIELD_MOST:g}: is the magnetometer in uT?"
+        )
     return replace(recording, expected=expected)
 
 
@@ -223,8 +236,9 @@ def made_up(series: Series, rest: Any, lead_s: float, noise: Any) -> Series:
     step = float(np.median(np.diff(series.time)))
     time = series.time[0] - step * np.arange(int(lead_s / step), 0, -1)
     drawn = np.random.Generator(np.random.PCG64(1)).standard_normal((len(time), len(rest)))
-    return Series(np.concatenate([time, series.time]),
-                  np.concatenate([rest + noise * drawn, series.value]))  # fmt: skip
+    return Series(
+        np.concatenate([time, series.time]), np.concatenate([rest + noise * drawn, series.value])
+    )
 
 
 def with_lead_in(recording: Recording, lead_s: float) -> Recording:
@@ -235,9 +249,13 @@ def with_lead_in(recording: Recording, lead_s: float) -> Recording:
     if is_still(recording.units):
         note = f"{lead_s:g} s of rest before it: its first second, backwards and forwards"
         units = [repeated(unit, lead_s) or unit for unit in recording.units]
-        return replace(recording, units=units, field=repeated(recording.field, lead_s),
-                       pressure=repeated(recording.pressure, lead_s),
-                       notes=[*recording.notes, note])  # fmt: skip
+        return replace(
+            recording,
+            units=units,
+            field=repeated(recording.field, lead_s),
+            pressure=repeated(recording.pressure, lead_s),
+            notes=[*recording.notes, note],
+        )
     if judge is None or judge.time[0] > FIRST_S:
         note = "begins in motion, and no attitude is known then: no rest is put before it"
         return replace(recording, notes=[*recording.notes, note])
@@ -246,8 +264,10 @@ def with_lead_in(recording: Recording, lead_s: float) -> Recording:
     noise = np.repeat(NOISE, 3)
     units = [made_up(unit, rest, lead_s, noise) for unit in recording.units]
     seen = recording.field and made_up(recording.field, recording.field.value[0], lead_s, 0.1)
-    note = (f"begins in motion: {lead_s:g} s of rest are made up before it, in its attitude at "
-            f"{judge.time[0]:.2f} s, with gyroscopes without an offset")  # fmt: skip
+    note = (
+        f"begins in motion: {lead_s:g} s of rest are made up before it, in its attitude at "
+        f"{judge.time[0]:.2f} s, with gyroscopes without an offset"
+    )
     return replace(recording, units=units, field=seen, notes=[*recording.notes, note])
 
 

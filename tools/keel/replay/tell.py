@@ -44,30 +44,46 @@ def estimators(results: Sequence[Result]) -> list[str]:
 def attitudes(results: Sequence[Result]) -> Table:
     """Inclination: a row for each recording with a reference, and for all of them."""
     names = estimators(results)
-    table = table_of("Inclination error, degrees, rms", "recording",
-                     [*(f"{name},\nall" for name in names), *(f"{name},\nmoving" for name in names),
-                      "keel,\nmost", "by"])  # fmt: skip
+    table = table_of(
+        "Inclination error, degrees, rms",
+        "recording",
+        [
+            *(f"{name},\nall" for name in names),
+            *(f"{name},\nmoving" for name in names),
+            "keel,\nmost",
+            "by",
+        ],
+    )
     places = [(name, where) for where in ("all", "moving") for name in names]
     for result in results:
         table.add_row(
             Path(result["file"]).name,
             *(number(error_of(result, name, "inclination_deg", where)) for name, where in places),
-            number(error_of(result, "keel", "inclination_deg", "all", "max")), result["judge"],
-        )  # fmt: skip
+            number(error_of(result, "keel", "inclination_deg", "all", "max")),
+            result["judge"],
+        )
     known = [result for result in results if result["judge"] == "reference"]
     if len(known) > 1:
-        table.add_row("rms of all with a reference", *(
-            number(together(error_of(result, name, "inclination_deg", where) for result in known))
-            for name, where in places))  # fmt: skip
+        table.add_row(
+            "rms of all with a reference",
+            *(
+                number(
+                    together(error_of(result, name, "inclination_deg", where) for result in known)
+                )
+                for name, where in places
+            ),
+        )
     return table
 
 
 def headings(results: Sequence[Result]) -> Table:
     """Heading, height, and how long Keel's attitude and heading were valid."""
     names = estimators(results)
-    table = table_of("Heading error, degrees, rms (Keel's where it is valid); height", "recording",
-                     [*names, "keel,\nmost", "running,\n%", "heading\nvalid, %",
-                      "height, m,\nrms", "most"])  # fmt: skip
+    table = table_of(
+        "Heading error, degrees, rms (Keel's where it is valid); height",
+        "recording",
+        [*names, "keel,\nmost", "running,\n%", "heading\nvalid, %", "height, m,\nrms", "most"],
+    )
     for result in results:
         spent, height = result["phases_s"], result["height_m"] or {"rms": None, "max": None}
         table.add_row(
@@ -76,8 +92,9 @@ def headings(results: Sequence[Result]) -> Table:
             number(error_of(result, "keel", "heading_deg", "all", "max")),
             number(100.0 * spent["running"] / max(1e-9, sum(spent.values()))),
             number(100.0 * result["heading_valid"]),
-            number(height["rms"], 2), number(height["max"], 2),
-        )  # fmt: skip
+            number(height["rms"], 2),
+            number(height["max"], 2),
+        )
     return table
 
 
@@ -90,18 +107,31 @@ def together(values: Iterable[float | None]) -> float | None:
 def votes(results: Sequence[Result]) -> Table:
     """A row for each recording of more than one unit."""
     states = list(results[0]["votes"]["states"]["gyroscope"])
-    table = table_of("Votes: percent by state; distance to the mean of all units, rms, worst axis",
-                     "recording", [*(f"force,\n{name}" for name in states),
-                                   *(f"rate,\n{name}" for name in states), "force, m/s^2:\nvote",
-                                   "mean of\nthree", "rate, rad/s:\nvote", "mean of\nthree",
-                                   "latch"])  # fmt: skip
+    table = table_of(
+        "Votes: percent by state; distance to the mean of all units, rms, worst axis",
+        "recording",
+        [
+            *(f"force,\n{name}" for name in states),
+            *(f"rate,\n{name}" for name in states),
+            "force, m/s^2:\nvote",
+            "mean of\nthree",
+            "rate, rad/s:\nvote",
+            "mean of\nthree",
+            "latch",
+        ],
+    )
     for result in results:
         found = result["votes"]
-        cells = [number(100.0 * found["states"][kind][name]) for kind in
-                 ("accelerometer", "gyroscope") for name in states]  # fmt: skip
-        cells += [number(found[who][kind], digits) for kind, digits in
-                  (("accelerometer", 2), ("gyroscope", 4))
-                  for who in ("from_mean_of_all", "plain_mean_of_three")]  # fmt: skip
+        cells = [
+            number(100.0 * found["states"][kind][name])
+            for kind in ("accelerometer", "gyroscope")
+            for name in states
+        ]
+        cells += [
+            number(found[who][kind], digits)
+            for kind, digits in (("accelerometer", 2), ("gyroscope", 4))
+            for who in ("from_mean_of_all", "plain_mean_of_three")
+        ]
         units = sorted({span["unit"] for span in found["latched"]})
         table.add_row(Path(result["file"]).name, *cells, ", ".join(map(str, units)))
     return table
@@ -109,8 +139,10 @@ def votes(results: Sequence[Result]) -> Table:
 
 def latches(result: Result) -> list[str]:
     """When a unit was latched, in words."""
-    return [f"unit {span['unit']} latched from {span['from_s']:.2f} to {span['to_s']:.2f} s"
-            for span in result["votes"]["latched"]]  # fmt: skip
+    return [
+        f"unit {span['unit']} latched from {span['from_s']:.2f} to {span['to_s']:.2f} s"
+        for span in result["votes"]["latched"]
+    ]
 
 
 def details(result: Result) -> list[str]:

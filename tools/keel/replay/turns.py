@@ -13,8 +13,14 @@ def times(first: Any, second: Any) -> Any:
     a, b, c, d = np.moveaxis(np.asarray(first, float), -1, 0)
     w, x, y, z = np.moveaxis(np.asarray(second, float), -1, 0)
     return np.stack(
-        [a * w - b * x - c * y - d * z, a * x + b * w + c * z - d * y,
-         a * y - b * z + c * w + d * x, a * z + b * y - c * x + d * w], -1)  # fmt: skip
+        [
+            a * w - b * x - c * y - d * z,
+            a * x + b * w + c * z - d * y,
+            a * y - b * z + c * w + d * x,
+            a * z + b * y - c * x + d * w,
+        ],
+        -1,
+    )
 
 
 def back(turn: Any) -> Any:
@@ -62,9 +68,12 @@ def level(down: Any, field: Any, expected: tuple[float, float]) -> Any:
 def of_rows(matrix: Any) -> Any:
     """The quaternion of a matrix from body to Earth."""
     m = np.asarray(matrix, float)
-    outer = np.array([
-        [m[0, 0] + m[1, 1] + m[2, 2], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
-        [0, m[0, 0] - m[1, 1] - m[2, 2], m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
-        [0, 0, m[1, 1] - m[0, 0] - m[2, 2], m[1, 2] + m[2, 1]],
-        [0, 0, 0, m[2, 2] - m[0, 0] - m[1, 1]]])  # fmt: skip
+    outer = np.array(
+        [
+            [m[0, 0] + m[1, 1] + m[2, 2], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
+            [0, m[0, 0] - m[1, 1] - m[2, 2], m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
+            [0, 0, m[1, 1] - m[0, 0] - m[2, 2], m[1, 2] + m[2, 1]],
+            [0, 0, 0, m[2, 2] - m[0, 0] - m[1, 1]],
+        ]
+    )
     return np.linalg.eigh(outer, UPLO="U")[1][:, 3]

@@ -33,8 +33,9 @@ class Topics:
         rows = self.log.data.get((name, instance))
         return rows if rows is not None and len(rows) > 1 else None
 
-    def series(self, name: str, fields: Sequence[str], instance: int = 0, keep: Any = None,
-               late: str = "") -> Series | None:  # fmt: skip
+    def series(
+        self, name: str, fields: Sequence[str], instance: int = 0, keep: Any = None, late: str = ""
+    ) -> Series | None:
         """Fields of a topic side by side; `late` names how long after its time they were so."""
         rows = self.data(name, instance)
         if rows is None:
@@ -51,8 +52,9 @@ class Topics:
         if len(rows) < 2:
             return None
         value = np.hstack([rows[one].reshape(len(rows), -1).astype(float) for one in fields])
-        return checked(self.path, name, MICRO * time, value,
-                       lambda index: f"message {index} of {name}")  # fmt: skip
+        return checked(
+            self.path, name, MICRO * time, value, lambda index: f"message {index} of {name}"
+        )
 
     def quaternions(self, name: str, keep: Any = None) -> Series | None:
         """An attitude."""
@@ -77,8 +79,11 @@ def read_ulog(path: Path) -> Recording:
 
 def keel(topics: Topics) -> Recording:
     """The copter's log. Its samples of units are without calibration, as it gets them."""
-    units = [one for number in range(3)
-             if (one := topics.series("imu", ["value"], number, lambda rows: rows["present"]))]
+    units = [
+        one
+        for number in range(3)
+        if (one := topics.series("imu", ["value"], number, lambda rows: rows["present"]))
+    ]
     if not units:
         raise ToolError(f"{topics.path}: the topic imu has no sample that is present")
     parameters = topics.log.parameters
@@ -87,12 +92,15 @@ def keel(topics: Topics) -> Recording:
         expected = float(parameters["MAG_NORTH"]), float(parameters["MAG_EAST"])
     place = topics.series("estimate", ["position"])
     return Recording(
-        topics.path, units, field=topics.series("compass", ["raw"]),
+        topics.path,
+        units,
+        field=topics.series("compass", ["raw"]),
         estimate=topics.quaternions("attitude", is_known),
         pressure=flat(topics.series("air", ["pressure_pa"])),
-        height=place and Series(place.time, place.value[:, 2]), expected=expected,
+        height=place and Series(place.time, place.value[:, 2]),
+        expected=expected,
         notes=["a log of Keel; the recorder's estimate is Keel's in flight, where it was valid"],
-    )  # fmt: skip
+    )
 
 
 def is_known(rows: Any) -> Any:
@@ -107,15 +115,22 @@ def px4(topics: Topics) -> Recording:
     if not units:
         one = topics.series("sensor_combined", ["accelerometer_m_s2", "gyro_rad"])
         if one is None:
-            raise ToolError(f"{topics.path}: the topic sensor_combined is missing, and so are "
-                            f"sensor_gyro and sensor_accel at {LEAST_HZ:g} Hz or more")  # fmt: skip
+            raise ToolError(
+                f"{topics.path}: the topic sensor_combined is missing, and so are "
+                f"sensor_gyro and sensor_accel at {LEAST_HZ:g} Hz or more"
+            )
         units, note = [one], "one unit: PX4's choice, sensor_combined"
     height = topics.series("vehicle_local_position", ["z"])
     return Recording(
-        topics.path, units, field=px4_field(topics),
-        estimate=topics.quaternions("vehicle_attitude"), pressure=px4_pressure(topics),
-        height=flat(height, -1.0), fixes=px4_fixes(topics),
-        notes=[f"a log of PX4; {note}; the recorder's estimate is PX4's"])  # fmt: skip
+        topics.path,
+        units,
+        field=px4_field(topics),
+        estimate=topics.quaternions("vehicle_attitude"),
+        pressure=px4_pressure(topics),
+        height=flat(height, -1.0),
+        fixes=px4_fixes(topics),
+        notes=[f"a log of PX4; {note}; the recorder's estimate is PX4's"],
+    )
 
 
 def px4_unit(topics: Topics, number: int) -> Series | None:
@@ -136,8 +151,9 @@ def px4_field(topics: Topics) -> Series | None:
     rows = topics.data("sensor_combined")
     found = topics.series("vehicle_magnetometer", ["magnetometer_ga"])
     if found is None and rows is not None and "magnetometer_ga" in rows.dtype.names:
-        found = topics.series("sensor_combined", ["magnetometer_ga"],
-                              late="magnetometer_timestamp_relative")  # fmt: skip
+        found = topics.series(
+            "sensor_combined", ["magnetometer_ga"], late="magnetometer_timestamp_relative"
+        )
     found = found or topics.series("sensor_mag", ["x", "y", "z"])
     return found and Series(found.time, GAUSS * found.value)
 
@@ -159,7 +175,8 @@ def px4_fixes(topics: Topics) -> Series | None:
     old = "lat" in rows.dtype.names
     place = ["lat", "lon", "alt"] if old else ["latitude_deg", "longitude_deg", "altitude_msl_m"]
     speed = ["vel_n_m_s", "vel_e_m_s", "vel_d_m_s", "eph", "s_variance_m_s"]
-    found = topics.series("vehicle_gps_position", [*place, *speed],
-                          keep=lambda rows: rows["fix_type"] >= 3)  # fmt: skip
+    found = topics.series(
+        "vehicle_gps_position", [*place, *speed], keep=lambda rows: rows["fix_type"] >= 3
+    )
     scale = (1e-7, 1e-7, 1e-3) if old else (1.0, 1.0, 1.0)
     return found and Series(found.time, found.value * (*scale, 1.0, 1.0, 1.0, 1.0, 1.0))

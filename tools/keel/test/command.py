@@ -195,9 +195,7 @@ def python_suite(name: str, source: Path, group: str, may_skip: bool) -> Outcome
 # --- All of them ---------------------------------------------------------------------------------
 
 
-def c_suites(
-    folder: str, ending: str, run_one: Callable[[str, str], Outcome]
-) -> list[Suite]:  # fmt: skip
+def c_suites(folder: str, ending: str, run_one: Callable[[str, str], Outcome]) -> list[Suite]:
     """One for each file of a folder of tests in C or C++."""
     suites = []
     for path in sorted((ROOT / "tests" / folder).glob(f"test_*{ending}")):
@@ -220,16 +218,21 @@ def python_suites(folder: str, groups: tuple[str, ...], may_skip: bool) -> list[
 def all_suites(builds: HostBuilds, needs: Needs) -> list[Suite]:
     """Every suite, in the order of the reports."""
     unit, reference = partial(unit_suite, builds), partial(reference_suite, builds)
-    suites = [*c_suites("unit", ".c", unit), *c_suites("bsp", ".c", unit),
-              *c_suites("reference", ".cpp", reference)]  # fmt: skip
+    suites = [
+        *c_suites("unit", ".c", unit),
+        *c_suites("bsp", ".c", unit),
+        *c_suites("reference", ".cpp", reference),
+    ]
     for size in CAPACITIES:
         name = f"property/{size}"
         suites.append(Suite(name, ("test",), partial(property_suite, builds, name, size)))
     suites.append(Suite("machdep", ("prove",), machdep_suite))
-    suites += [*python_suites("tools", ("tools-tests", "c-syntax"), True),
-               *python_suites("timing", ("timing-tests",), False),
-               *python_suites("flight", ("fly-tests",), False),
-               *python_suites("clients", ("clients",), False)]  # fmt: skip
+    suites += [
+        *python_suites("tools", ("tools-tests", "c-syntax"), True),
+        *python_suites("timing", ("timing-tests",), False),
+        *python_suites("flight", ("fly-tests",), False),
+        *python_suites("clients", ("clients",), False),
+    ]
     return [with_needs(suite, needs) for suite in suites]
 
 

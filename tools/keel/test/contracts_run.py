@@ -156,12 +156,26 @@ class Runner:
         target = self.folder / "instrumented" / f"{function}.c"
         target.parent.mkdir(exist_ok=True)
         target.unlink(missing_ok=True)
-        ended = run([
-            *self.tools.command("frama-c"), "-no-autoload-plugins",
-            "-load-module", ",".join(PLUGINS), "-machdep", MACHINE,
-            "-cpp-extra-args=-Iinclude", unit, *E_ACSL, "-e-acsl-functions", function,
-            "-then-last", "-print", "-ocode", target,
-        ], TIMEOUT_S)  # fmt: skip
+        ended = run(
+            [
+                *self.tools.command("frama-c"),
+                "-no-autoload-plugins",
+                "-load-module",
+                ",".join(PLUGINS),
+                "-machdep",
+                MACHINE,
+                "-cpp-extra-args=-Iinclude",
+                unit,
+                *E_ACSL,
+                "-e-acsl-functions",
+                function,
+                "-then-last",
+                "-print",
+                "-ocode",
+                target,
+            ],
+            TIMEOUT_S,
+        )
         if not ended.good or not target.is_file():
             raise ToolError(f"{function}: E-ACSL: {ended.how}\n{ended.evidence}")
         return target, ended.output
@@ -178,9 +192,12 @@ class Runner:
             self.build.object(f"{unity}/unity.c", ["-isystem", unity]),
             self.build.object(f"{self.share}/e_acsl_rtl.c", runtime),
             self.build.object((self.folder / "start.c").relative_to(self.root).as_posix()),
-            *self.build.objects(other for other in source_files(["src"], self.root)
-                                if Path(other).name != Path(unit).name),
-        ]  # fmt: skip
+            *self.build.objects(
+                other
+                for other in source_files(["src"], self.root)
+                if Path(other).name != Path(unit).name
+            ),
+        ]
         wraps = ",".join(f"--wrap={item}" for item in WRAPPED)
         return self.build.link(
             function, objects, [LIBRARY, f"-Wl,{wraps}", "-lgmp", "-lm", "-lpthread"]
@@ -210,10 +227,13 @@ def ignored_in(said: str) -> list[dict[str, object]]:
     """The clauses that E-ACSL left out, each with its place and the construct that it lacks."""
     clauses = {
         (file, int(line), " ".join(construct.split()))
-        for file, line, construct in IGNORED.findall(said) if file.startswith(("src/", "include/"))
-    }  # fmt: skip
-    return [{"file": file, "line": line, "construct": construct}
-            for file, line, construct in sorted(clauses)]  # fmt: skip
+        for file, line, construct in IGNORED.findall(said)
+        if file.startswith(("src/", "include/"))
+    }
+    return [
+        {"file": file, "line": line, "construct": construct}
+        for file, line, construct in sorted(clauses)
+    ]
 
 
 def violation(ended: Ended) -> str:
@@ -226,8 +246,11 @@ def violation(ended: Ended) -> str:
 def tell(unit: str, found: Run) -> None:
     """A line for each file, and one for each failure."""
     checks = ", ".join(f"{count} {kind.lower()}" for kind, count in found.checks.items())
-    print(f"{unit:<32} {found.passed:>3} tests through {len(found.functions)} contracts: {checks}; "
-          f"{len(found.ignored)} clauses left out", flush=True)  # fmt: skip
+    print(
+        f"{unit:<32} {found.passed:>3} tests through {len(found.functions)} contracts: {checks}; "
+        f"{len(found.ignored)} clauses left out",
+        flush=True,
+    )
     for failure in found.failures:
         print(failure, flush=True)
 
@@ -236,11 +259,15 @@ def judge(runs: dict[str, Run], choice: Choice, versions: dict[str, str]) -> int
     """Write the report, print the verdict, give the exit status."""
     failed = sum(len(found.failures) for found in runs.values())
     good = bool(runs) and not failed
-    write_report(REPORT, {
-        "units": {unit: vars(found) for unit, found in runs.items()},
-        "left_out": [item.model_dump() for item in choice.left_out],
-        "tools": versions,
-    }, good=good)  # fmt: skip
+    write_report(
+        REPORT,
+        {
+            "units": {unit: vars(found) for unit, found in runs.items()},
+            "left_out": [item.model_dump() for item in choice.left_out],
+            "tools": versions,
+        },
+        good=good,
+    )
     functions = sum(len(found.functions) for found in runs.values())
     print(f"contracts-run: {functions} contracts of {len(runs)} files ran, {failed} failures")
     return 0 if good else 1
@@ -258,8 +285,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         runner = Runner(tools)
         runs = {}
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-            for unit, one in zip(choice.executed, pool.map(runner.run, choice.executed),
-                                 strict=True):  # fmt: skip
+            for unit, one in zip(
+                choice.executed, pool.map(runner.run, choice.executed), strict=True
+            ):
                 runs[unit.unit] = one
                 tell(unit.unit, one)
         found = tools.versions("prove", "test")

@@ -121,9 +121,12 @@ def mcdc_conditions(rows: Iterable[Sequence[Any]]) -> dict[tuple[int, int], list
 
 
 def coverage_of(
-    name: str, text: str, lines: dict[int, int], branches: Iterable[Sequence[int]],
+    name: str,
+    text: str,
+    lines: dict[int, int],
+    branches: Iterable[Sequence[int]],
     decisions: Iterable[Sequence[Any]],
-) -> FileCoverage:  # fmt: skip
+) -> FileCoverage:
     """The coverage of a file from its export."""
     rows = text.splitlines()
     # A macro's own line counts as executed wherever it is used; it is no statement.
@@ -167,14 +170,21 @@ def spans_of(functions: Iterable[Mapping[str, Any]]) -> dict[str, dict[str, rang
 
 
 def within(
-    span: range, name: str, text: str, lines: dict[int, int], branches: Iterable[Sequence[int]],
+    span: range,
+    name: str,
+    text: str,
+    lines: dict[int, int],
+    branches: Iterable[Sequence[int]],
     decisions: Iterable[Sequence[Any]],
-) -> FileCoverage:  # fmt: skip
+) -> FileCoverage:
     """The coverage of one function of a file."""
     return coverage_of(
-        name, text, {line: count for line, count in lines.items() if line in span},
-        [row for row in branches if row[0] in span], [row for row in decisions if row[0] in span],
-    )  # fmt: skip
+        name,
+        text,
+        {line: count for line, count in lines.items() if line in span},
+        [row for row in branches if row[0] in span],
+        [row for row in decisions if row[0] in span],
+    )
 
 
 # --- Exclusions ----------------------------------------------------------------------------------
@@ -245,8 +255,13 @@ class Measurement:
         for item in exported["files"]:
             path = Path(item["filename"])
             name = str(path.relative_to(ROOT))
-            told = (name, path.read_text(), lines.get(str(path), {}), item["branches"],
-                    item["mcdc_records"])  # fmt: skip
+            told = (
+                name,
+                path.read_text(),
+                lines.get(str(path), {}),
+                item["branches"],
+                item["mcdc_records"],
+            )
             measured = coverage_of(*told)
             if measured.lines[1] > 0:
                 for function, span in spans.get(str(path), {}).items():
@@ -293,9 +308,12 @@ def report_of(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -
     return {
         "total": {metric: total_of(files, metric) for metric in METRICS},
         "files": {
-            name: {**counts_of(item), "functions": {
-                function: counts_of(own) for function, own in sorted(item.functions.items())
-            }}
+            name: {
+                **counts_of(item),
+                "functions": {
+                    function: counts_of(own) for function, own in sorted(item.functions.items())
+                },
+            }
             for name, item in sorted(files.items())
         },
         "gaps": [asdict(gap) for gap in remaining],
@@ -304,7 +322,7 @@ def report_of(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -
             for gap in excluded
         ],
         "unused_exclusions": [item.model_dump() for item in unused],
-    }  # fmt: skip
+    }
 
 
 def judge(files: dict[str, FileCoverage], exclusions: Sequence[Exclusion]) -> int:

@@ -24,11 +24,24 @@ STACK_LINE = re.compile(r"^stack: (\d+) of (\d+) bytes used$", re.MULTILINE)
 def emulator(tools: Toolchain, board: Board, elf: Path, shift: int = SHIFT) -> list[str]:
     """The command that runs an image: its console is the standard output, its end the status."""
     return [
-        *tools.command("qemu-system-arm"), "-machine", "mps2-an500",
-        "-icount", f"shift={shift},sleep=off", "-display", "none", "-monitor", "none",
-        "-serial", "stdio", "-semihosting-config", "enable=on,target=native",
-        "-global", f"armv7m.init-nsvtor=0x{board.load_address:08x}", "-kernel", str(elf),
-    ]  # fmt: skip
+        *tools.command("qemu-system-arm"),
+        "-machine",
+        "mps2-an500",
+        "-icount",
+        f"shift={shift},sleep=off",
+        "-display",
+        "none",
+        "-monitor",
+        "none",
+        "-serial",
+        "stdio",
+        "-semihosting-config",
+        "enable=on,target=native",
+        "-global",
+        f"armv7m.init-nsvtor=0x{board.load_address:08x}",
+        "-kernel",
+        str(elf),
+    ]
 
 
 @dataclass
@@ -56,11 +69,14 @@ class EmulatedBoard:
     def unity_flags(self) -> list[str]:
         """What makes a file find Unity, and Unity the console."""
         return [
-            "-isystem", self.tools.command("unity")[0],
-            "-DUNITY_SUPPORT_64", "-DUNITY_INCLUDE_DOUBLE", EXACT_FLOATS,
+            "-isystem",
+            self.tools.command("unity")[0],
+            "-DUNITY_SUPPORT_64",
+            "-DUNITY_INCLUDE_DOUBLE",
+            EXACT_FLOATS,
             "-DUNITY_OUTPUT_CHAR(c)=keel_board_put((char)(c))",
             "-DUNITY_OUTPUT_CHAR_HEADER_DECLARATION=keel_board_put(char c)",
-        ]  # fmt: skip
+        ]
 
     def run(self, image: Image, timeout_s: float = TIMEOUT_S, shift: int = SHIFT) -> Ended:
         """Run an image to its end, or to its time limit; remember its stack."""

@@ -129,8 +129,9 @@ IDLE_MILLIONTHS = 50_000  # What an armed motor gets at least: examples/copter/s
 def judge_tasks(periods: Mapping[str, int], output: str) -> list[str]:
     """What is not as the periods ask."""
     wrong = []
-    lines = {match[1]: [int(word) for word in match.groups()[1:]] for match in
-             DEMO_LINE.finditer(output)}  # fmt: skip
+    lines = {
+        match[1]: [int(word) for word in match.groups()[1:]] for match in DEMO_LINE.finditer(output)
+    }
     for name in periods.keys() ^ lines.keys():
         wrong.append(f"{name}: is only in the {'table' if name in periods else 'output'}")
     for name, (period, runs, _, skipped, overruns, promotions) in lines.items():
@@ -149,9 +150,14 @@ def judge_tasks(periods: Mapping[str, int], output: str) -> list[str]:
 # of CRSF a second the fifth has come at 10 ms, but one run does not get to it; IBUS's fifth begins
 # at 28 ms; of PPM the eighth train ends at 160 ms); and how many frames come before that one.
 RADIOS = {
-    "SBUS": (1, 12, 19), "CRSF": (2, 2, 4), "IBUS": (3, 4, 4), "PPM": (4, 16, 7),
-    "noise": (0, 0, 0), "noise of CRSF": (2, 1, 0), "noise of SBUS": (1, 1, 0),
-}  # fmt: skip
+    "SBUS": (1, 12, 19),
+    "CRSF": (2, 2, 4),
+    "IBUS": (3, 4, 4),
+    "PPM": (4, 16, 7),
+    "noise": (0, 0, 0),
+    "noise of CRSF": (2, 1, 0),
+    "noise of SBUS": (1, 1, 0),
+}
 RADIO_LINE = re.compile(
     r"^radio (.+): protocol (\d+) found (\d+) sent (\d+) frames (\d+) longest (\d+) "
     r"behind (\d+)$",
@@ -204,9 +210,11 @@ def judge_copter(periods: Mapping[str, int], output: str) -> list[str]:
 
 
 def application_suite(
-    board: EmulatedBoard, image: Image, name: str,
+    board: EmulatedBoard,
+    image: Image,
+    name: str,
     judge: Callable[[Mapping[str, int], str], list[str]],
-) -> Outcome:  # fmt: skip
+) -> Outcome:
     """An application with the 21 tasks, for ten simulated seconds."""
     periods = demo_periods((board.root / TASK_SET).read_text(encoding="utf-8"))
     ended = board.run(image, LONG_TIMEOUT_S)
@@ -268,8 +276,9 @@ def digests(output: str) -> dict[tuple[str, int], str]:
     return {(unit, int(block)): text for unit, block, text in BLOCK.findall(output)}
 
 
-def first_difference(model: Mapping[tuple[str, int], str], target: Mapping[tuple[str, int], str],
-                     unit: str) -> int | None:  # fmt: skip
+def first_difference(
+    model: Mapping[tuple[str, int], str], target: Mapping[tuple[str, int], str], unit: str
+) -> int | None:
     """The first block of a unit in which the two differ; one that is missing differs."""
     for block in range(BLOCKS):
         ours = model.get((unit, block))
@@ -330,15 +339,31 @@ def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
 
 # In seconds, alone; of the others none takes two. They begin, so that none is left at the end.
 LONG_S = {
-    "demo": 20.0, "differential": 20.0, "unit/specified": 10.0, "unit/mixer_specified": 10.0,
-    "unit/mode_specified": 10.0, "unit/attitude_specified": 10.0, "unit/attitude_motion": 5.0,
-    "unit/axis_specified": 5.0, "unit/position_specified": 5.0, "unit/altitude_specified": 5.0,
-    "unit/battery_specified": 5.0, "unit/calibration_specified": 5.0,
-    "unit/cascade_specified": 10.0, "unit/cascade_motion": 5.0, "unit/sbus_specified": 5.0,
-    "unit/mavlink_specified": 10.0, "unit/ms5611_specified": 5.0, "unit/log_ring_specified": 5.0,
-    "unit/ulog_specified": 5.0, "unit/ubx_specified": 5.0, "unit/crsf_specified": 5.0,
-    "unit/ibus_specified": 5.0, "unit/ppm_specified": 5.0, "unit/signing_specified": 5.0,
-}  # fmt: skip
+    "demo": 20.0,
+    "differential": 20.0,
+    "unit/specified": 10.0,
+    "unit/mixer_specified": 10.0,
+    "unit/mode_specified": 10.0,
+    "unit/attitude_specified": 10.0,
+    "unit/attitude_motion": 5.0,
+    "unit/axis_specified": 5.0,
+    "unit/position_specified": 5.0,
+    "unit/altitude_specified": 5.0,
+    "unit/battery_specified": 5.0,
+    "unit/calibration_specified": 5.0,
+    "unit/cascade_specified": 10.0,
+    "unit/cascade_motion": 5.0,
+    "unit/sbus_specified": 5.0,
+    "unit/mavlink_specified": 10.0,
+    "unit/ms5611_specified": 5.0,
+    "unit/log_ring_specified": 5.0,
+    "unit/ulog_specified": 5.0,
+    "unit/ubx_specified": 5.0,
+    "unit/crsf_specified": 5.0,
+    "unit/ibus_specified": 5.0,
+    "unit/ppm_specified": 5.0,
+    "unit/signing_specified": 5.0,
+}
 
 
 def all_suites(board: EmulatedBoard) -> list[Suite]:
@@ -382,8 +407,10 @@ def print_stacks(board: EmulatedBoard) -> None:
     if board.stacks:
         deepest = max(sorted(board.stacks), key=lambda name: board.stacks[name])
         main = f", the demo's main {board.stacks['demo']}" if "demo" in board.stacks else ""
-        print(f"painted stack of {board.stack_size} bytes: at most {board.stacks[deepest]} used "
-              f"({deepest}){main}")  # fmt: skip
+        print(
+            f"painted stack of {board.stack_size} bytes: at most {board.stacks[deepest]} used "
+            f"({deepest}){main}"
+        )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

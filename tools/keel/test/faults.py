@@ -79,11 +79,14 @@ def judge_fault(fault: Fault, found: Mapping[str, str], span: range) -> list[str
     wrong = [
         f"{name} is {found.get(name)}, not {want}"
         for name, want in (
-            ("fault", "1"), ("exception", str(fault.exception)), ("code", f"0x{fault.code:08x}"),
-            ("task", fault.task), ("stacked", "yes" if fault.stacked else "no"),
+            ("fault", "1"),
+            ("exception", str(fault.exception)),
+            ("code", f"0x{fault.code:08x}"),
+            ("task", fault.task),
+            ("stacked", "yes" if fault.stacked else "no"),
         )
         if found.get(name) != want
-    ]  # fmt: skip
+    ]
     if status & ~fault.allowed != fault.status:
         wrong.append(f"cfsr is 0x{status:08x}, not 0x{fault.status:08x}")
     if fault.address and status & (MMARVALID | BFARVALID) and address not in fault.address:

@@ -29,9 +29,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     running.add_options(parser)
     parser.add_argument("--seconds", type=int, default=60, metavar="S", help="for each target")
     parser.add_argument(
-        "--runs", type=int, default=0, metavar="N",
+        "--runs",
+        type=int,
+        default=0,
+        metavar="N",
         help="so many executions instead, of targets that others judge",
-    )  # fmt: skip
+    )
     options = running.parse(parser, arguments)
     if options.seconds < 1 or options.runs < 0:
         parser.error("--seconds needs at least 1, --runs at least 0")

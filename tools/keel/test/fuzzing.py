@@ -69,9 +69,7 @@ class Fuzzing:
         return max(self.seconds, self.runs / 1000) + 120.0
 
 
-def fuzz_program(
-    tools: Toolchain, name: str, model: Sequence[str], fuzzer: Sequence[str]
-) -> Path:
+def fuzz_program(tools: Toolchain, name: str, model: Sequence[str], fuzzer: Sequence[str]) -> Path:
     """Build a target: tests/fuzz/NAME.c with the kernel and what it is compared with."""
     flags = ["-std=c99", "-g", "-Iinclude", SMALL, *fuzzer]
     link = [flag for flag in fuzzer if flag.startswith("-f")]
@@ -97,5 +95,8 @@ def fuzz_suite(tools: Toolchain, fuzzing: Fuzzing, name: str) -> Outcome:
 
 def fuzz_suites(tools: Toolchain, fuzzing: Fuzzing) -> list[Suite]:
     """One for each target; when executions are counted, for each that somebody else judges."""
-    return [Suite(name, ("fuzz", *oracles.groups(name)), partial(fuzz_suite, tools, fuzzing, name))
-            for name in TARGETS if oracles.groups(name) or not fuzzing.runs]  # fmt: skip
+    return [
+        Suite(name, ("fuzz", *oracles.groups(name)), partial(fuzz_suite, tools, fuzzing, name))
+        for name in TARGETS
+        if oracles.groups(name) or not fuzzing.runs
+    ]

@@ -44,8 +44,10 @@ class Needs(Table):
 def mistakes(needs: Needs) -> Iterator[Mistake]:
     """Groups that the lock file does not have, and names that occur twice."""
     known = Lock.read().groups
-    named = {"suite": [need.groups for need in needs.suite],
-             "absent": [entry.groups for entry in needs.absent]}  # fmt: skip
+    named = {
+        "suite": [need.groups for need in needs.suite],
+        "absent": [entry.groups for entry in needs.absent],
+    }
     for kind, lists in named.items():
         for number, groups in enumerate(lists):
             if wrong := [group for group in groups if group not in known]:

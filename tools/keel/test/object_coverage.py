@@ -58,8 +58,13 @@ SOURCE = "src"
 # is compared with the model in random steps, and these; the last one has fewer, and shows nothing
 # that the voter's other tests do not.
 UNTRACED_END = "specified"
-UNTRACED = ("mixer_equations", "reference_curves", "attitude_motion", "cascade_motion",
-            "voter_influence")  # fmt: skip
+UNTRACED = (
+    "mixer_equations",
+    "reference_curves",
+    "attitude_motion",
+    "cascade_motion",
+    "voter_influence",
+)
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}
 NEVER: dict[bool, Literal["taken", "not taken"]] = {True: "taken", False: "not taken"}
 
@@ -89,8 +94,11 @@ class Condition:
     def same(self, other: Condition) -> bool:
         """Whether another image has the same instruction there."""
         return (self.kind, self.instruction, self.file, self.line) == (
-            other.kind, other.instruction, other.file, other.line
-        )  # fmt: skip
+            other.kind,
+            other.instruction,
+            other.file,
+            other.line,
+        )
 
 
 @dataclass(frozen=True)
@@ -179,8 +187,12 @@ class Measurement:
                 image = unit_image(self.board, name, source)
                 found = self.conditions(image)
                 items = [item for item, _ in found]
-                running.append(((name, found), pool.submit(
-                    traced, self.board.tools, self.board.board, image.elf, items)))  # fmt: skip
+                running.append(
+                    (
+                        (name, found),
+                        pool.submit(traced, self.board.tools, self.board.board, image.elf, items),
+                    )
+                )
                 while running and running[0][1].done():
                     self.note(*running.popleft())
             for made, run in running:
@@ -210,9 +222,15 @@ class Measurement:
             for item in self.finder.of(contents, function):
                 place = lines.at(item.address)
                 condition = Condition(
-                    unit, function.name, item.offset, item.kind, item.text, place.file,
-                    place.line, self.text(place.file, place.line),
-                )  # fmt: skip
+                    unit,
+                    function.name,
+                    item.offset,
+                    item.kind,
+                    item.text,
+                    place.file,
+                    place.line,
+                    self.text(place.file, place.line),
+                )
                 found.append((item, self.known(condition)))
         return found
 
@@ -221,8 +239,10 @@ class Measurement:
         key = (condition.unit, condition.function, condition.offset)
         known = self.found.setdefault(key, condition)
         if not known.same(condition):
-            raise ToolError(f"{key[0]}: {key[1]}+0x{key[2]:x} differs between images: "
-                            f"{known.instruction}, {condition.instruction}")  # fmt: skip
+            raise ToolError(
+                f"{key[0]}: {key[1]}+0x{key[2]:x} differs between images: "
+                f"{known.instruction}, {condition.instruction}"
+            )
         return known
 
     def text(self, file: str, line: int) -> str:
@@ -273,16 +293,22 @@ def gaps_of(conditions: Iterable[Condition]) -> list[Gap]:
     """Every outcome that was not seen."""
     return [
         Gap(item.file, item.line, item.text, item.function, item.offset, item.instruction, told)
-        for item in conditions for way, told in NEVER.items() if way not in item.seen
-    ]  # fmt: skip
+        for item in conditions
+        for way, told in NEVER.items()
+        if way not in item.seen
+    ]
 
 
 def counts(conditions: Iterable[Condition]) -> dict[str, int]:
     """Instructions, by kind and in all, and outcomes that were seen."""
     items = list(conditions)
     kinds = Counter(item.kind for item in items)
-    return {**dict(sorted(kinds.items())), "conditions": len(items), "outcomes": 2 * len(items),
-            "seen": sum(len(item.seen) for item in items)}  # fmt: skip
+    return {
+        **dict(sorted(kinds.items())),
+        "conditions": len(items),
+        "outcomes": 2 * len(items),
+        "seen": sum(len(item.seen) for item in items),
+    }
 
 
 def apply(
@@ -291,11 +317,12 @@ def apply(
     """Gaps without a reason, gaps with theirs, and reasons that fit none or another number."""
     explained = [
         {**asdict(gap), "reason": item.reason.strip()}
-        for gap in gaps for item in reasons if item.explains(gap)
-    ]  # fmt: skip
+        for gap in gaps
+        for item in reasons
+        if item.explains(gap)
+    ]
     remaining = [gap for gap in gaps if not any(item.explains(gap) for item in reasons)]
-    stale = [item for item in reasons
-             if sum(map(item.explains, gaps)) != item.instructions]  # fmt: skip
+    stale = [item for item in reasons if sum(map(item.explains, gaps)) != item.instructions]
     return remaining, explained, stale
 
 
@@ -309,14 +336,20 @@ def report_of(
     for unit in dict.fromkeys(item.unit for item in conditions):
         own = [item for item in conditions if item.unit == unit]
         names = dict.fromkeys(item.function for item in own)
-        units[unit] = {**counts(own), "functions": {
-            name: counts(item for item in own if item.function == name) for name in names
-        }}  # fmt: skip
+        units[unit] = {
+            **counts(own),
+            "functions": {
+                name: counts(item for item in own if item.function == name) for name in names
+            },
+        }
     return {
-        "total": counts(conditions), "files": units,
-        "gaps": [asdict(gap) for gap in remaining], "explained": explained,
-        "stale_reasons": [item.model_dump() for item in stale], **facts,
-    }  # fmt: skip
+        "total": counts(conditions),
+        "files": units,
+        "gaps": [asdict(gap) for gap in remaining],
+        "explained": explained,
+        "stale_reasons": [item.model_dump() for item in stale],
+        **facts,
+    }
 
 
 def print_table(conditions: Sequence[Condition]) -> None:
@@ -335,18 +368,24 @@ def judge(
     remaining, explained, stale = apply(reasons, gaps_of(conditions))
     print_table(conditions)
     for gap in remaining:
-        print(f"{gap.file}:{gap.line}: {gap.function}+0x{gap.offset:x} {gap.instruction}: never "
-              f"{gap.never}: {gap.text}")  # fmt: skip
+        print(
+            f"{gap.file}:{gap.line}: {gap.function}+0x{gap.offset:x} {gap.instruction}: never "
+            f"{gap.never}: {gap.text}"
+        )
     for item in stale:
-        print(f"{REASONS.name}: fits another number of gaps than {item.instructions}: "
-              f"{item.function}: never {item.never}: {item.line}")  # fmt: skip
+        print(
+            f"{REASONS.name}: fits another number of gaps than {item.instructions}: "
+            f"{item.function}: never {item.never}: {item.line}"
+        )
     good = bool(conditions) and not remaining and not stale
     write_report(REPORT, report_of(conditions, reasons, facts), good=good)
     total = counts(conditions)
     told = ", ".join(f"{total[kind]} {name}" for kind, name in SHOWN.items() if kind in total)
-    print(f"coverage-target: {total['seen']} of {total['outcomes']} outcomes of conditional "
-          f"instructions ({told}); {len(explained)} cannot be, {len(remaining)} gaps, "
-          f"{len(stale)} stale reasons")  # fmt: skip
+    print(
+        f"coverage-target: {total['seen']} of {total['outcomes']} outcomes of conditional "
+        f"instructions ({told}); {len(explained)} cannot be, {len(remaining)} gaps, "
+        f"{len(stale)} stale reasons"
+    )
     return 0 if good else 1
 
 

@@ -23,8 +23,15 @@ from keel.base.run import run
 from keel.base.source import write_report
 from keel.install import Toolchain
 
-FLAGS = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-g", "-fsanitize=address,undefined",
-         "-fno-sanitize-recover=all")  # fmt: skip
+FLAGS = (
+    "-std=c99",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-g",
+    "-fsanitize=address,undefined",
+    "-fno-sanitize-recover=all",
+)
 LINE = re.compile(r"^(?P<place>\S+:\d+):(?P<test>\w+):(?P<verdict>PASS|FAIL)(?::(?P<why>.*))?$")
 SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures", re.MULTILINE)
 
@@ -67,8 +74,12 @@ def outcome(build: Build, path: Path, shared: Sequence[Path]) -> JUnitSuite:
     source = str(path.relative_to(build.root))
     ended = run([build.link(path.stem, [*shared, build.object(source)])], cwd=build.root)
     found = [match for line in ended.output.splitlines() if (match := LINE.match(line))]
-    tests = {match["test"]: "" if match["verdict"] == "PASS" else
-             f"{match['place']}: {(match['why'] or '').strip()}" for match in found}  # fmt: skip
+    tests = {
+        match["test"]: ""
+        if match["verdict"] == "PASS"
+        else f"{match['place']}: {(match['why'] or '').strip()}"
+        for match in found
+    }
     told = SUMMARY.search(ended.output)
     if not told or int(told[1]) != len(tests) or ended.timed_out:
         tests[path.stem] = f"{ended.how}\n{ended.evidence}"
@@ -77,8 +88,9 @@ def outcome(build: Build, path: Path, shared: Sequence[Path]) -> JUnitSuite:
 
 def conclude(suites: dict[str, JUnitSuite]) -> int:
     """Tell what failed, and how many passed; the exit status."""
-    failures = [(name, text) for suite in suites.values()
-                for name, text in suite.tests.items() if text]  # fmt: skip
+    failures = [
+        (name, text) for suite in suites.values() for name, text in suite.tests.items() if text
+    ]
     for name, text in failures:
         print(f"FAILED {name}: {text}")
     total = sum(len(suite.tests) for suite in suites.values())

@@ -47,8 +47,11 @@ def floats(tools: Toolchain, steps: int) -> list[str | Path]:
     unity = tools.command("unity")[0]
     extra = [f"-DSTEPS={steps}u", f"-DSEED={SEED}u", "-isystem", unity, "-w"]
     build = Build(tools, "gcc", [*FLAGS, *extra], ROOT / BUILD / f"floats-{steps}")
-    return [build.program("specified", [*KERNEL, "tests/unit/test_specified.c",
-                                        f"{unity}/unity.c"], ["-lm"])]  # fmt: skip
+    return [
+        build.program(
+            "specified", [*KERNEL, "tests/unit/test_specified.c", f"{unity}/unity.c"], ["-lm"]
+        )
+    ]
 
 
 def soak(name: str, command: Sequence[str | Path]) -> tuple[Ended, float]:
@@ -57,8 +60,10 @@ def soak(name: str, command: Sequence[str | Path]) -> tuple[Ended, float]:
     began = time.monotonic()
     ended = run(command, None)
     seconds = time.monotonic() - began
-    print(f"soak: {name}: {'no difference' if ended.good else ended.how} ({seconds:.0f} s)",
-          flush=True)  # fmt: skip
+    print(
+        f"soak: {name}: {'no difference' if ended.good else ended.how} ({seconds:.0f} s)",
+        flush=True,
+    )
     if not ended.good:
         print(ended.evidence, flush=True)
     return ended, seconds
@@ -76,11 +81,18 @@ def work(steps: int) -> int:
     }
     results = {name: soak(name, command) for name, command in commands.items()}
     good = all(ended.good for ended, _ in results.values())
-    write_report(report, {
-        "steps": steps, "seed": SEED,
-        "programs": {name: {"good": ended.good, "seconds": round(seconds)}
-                     for name, (ended, seconds) in results.items()},
-    }, good=good)  # fmt: skip
+    write_report(
+        report,
+        {
+            "steps": steps,
+            "seed": SEED,
+            "programs": {
+                name: {"good": ended.good, "seconds": round(seconds)}
+                for name, (ended, seconds) in results.items()
+            },
+        },
+        good=good,
+    )
     calls = f"{steps:,} calls of each".replace(",", " ")
     print(f"soak: {'no difference' if good else 'code and specification DIFFER'}, {calls}")
     return 0 if good else 1

@@ -40,8 +40,14 @@ class Suite:
 def add_options(parser: Parser) -> None:
     """Which suites, and how many at once."""
     parser.add_argument("--filter", default="", metavar="TEXT", help="suites whose name has this")
-    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
-                        help="suites side by side; default: one a core")  # fmt: skip
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        type=int,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="suites side by side; default: one a core",
+    )
 
 
 def parse(parser: Parser, arguments: Sequence[str] | None) -> argparse.Namespace:
@@ -79,8 +85,7 @@ def refusal(tools: Toolchain, groups: Sequence[str]) -> str:
 
 
 def run_suite(suite: Suite, refused: str = "") -> Outcome:
-    """Run one suite; whatever keeps it from running, as a tool that it cannot have, is its failure.
-    """
+    """Run one suite; whatever keeps it from running, as a tool that it cannot have, is its failure."""
     began = time.monotonic()
     try:
         outcome = failure(suite, refused) if refused else suite.run()
@@ -143,15 +148,24 @@ def end(
     passed = sum(outcome.passed for outcome in outcomes.values())
     failed = sum(len(outcome.failures) for outcome in outcomes.values())
     suites = {name: outcome.as_dict() for name, outcome in outcomes.items()}
-    write_junit(folder / JUNIT, title, {
-        name: JUnitSuite({test: outcome.texts.get(test, "") for test in outcome.tests},
-                         outcome.seconds)
-        for name, outcome in outcomes.items()
-    })  # fmt: skip
+    write_junit(
+        folder / JUNIT,
+        title,
+        {
+            name: JUnitSuite(
+                {test: outcome.texts.get(test, "") for test in outcome.tests}, outcome.seconds
+            )
+            for name, outcome in outcomes.items()
+        },
+    )
     counted = {"passed": passed, "failed": failed}
     good = passed > 0 and failed == 0
-    write_report(folder / REPORT, {**counted, **facts, "suites": suites}, good=good,
-                 whole=not (facts.get("filter") or facts.get("left_out")))  # fmt: skip
+    write_report(
+        folder / REPORT,
+        {**counted, **facts, "suites": suites},
+        good=good,
+        whole=not (facts.get("filter") or facts.get("left_out")),
+    )
     sys.stderr.flush()
     for name, outcome in outcomes.items():
         for test in outcome.texts:

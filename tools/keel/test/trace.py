@@ -46,9 +46,7 @@ def parts_of(log: BinaryIO, chunk_b: int) -> Iterator[bytes]:
     yield rest
 
 
-def outcomes_of(
-    log: BinaryIO, at: Mapping[int, Conditional], chunk_b: int = CHUNK_B
-) -> Outcomes:  # fmt: skip
+def outcomes_of(log: BinaryIO, at: Mapping[int, Conditional], chunk_b: int = CHUNK_B) -> Outcomes:
     """The outcomes that a log of registers shows.
 
     A log has millions of instructions: registers are read only where an outcome is yet to be seen,
@@ -82,7 +80,7 @@ def _decisive(item: Conditional, registers: bytes, status: bytes) -> bytes:
 
 def traced(
     tools: Toolchain, board: Board, elf: Path, conditionals: Sequence[Conditional]
-) -> tuple[Ended, Outcomes]:  # fmt: skip
+) -> tuple[Ended, Outcomes]:
     """Run an image; how it ended, and the outcomes of its conditional instructions.
 
     The time goes into loops, logged over and over with outcomes that are known. So the run is begun
@@ -104,7 +102,7 @@ def traced(
 
 def _logged(
     tools: Toolchain, board: Board, elf: Path, items: Sequence[Conditional], limit_s: float
-) -> tuple[Ended, Outcomes]:  # fmt: skip
+) -> tuple[Ended, Outcomes]:
     """Run an image, to its end or for a while, and log these instructions. What is broken off may
     not have begun to."""
     command = emulator(tools, board, elf)

@@ -28,10 +28,24 @@ from keel.install import Toolchain
 from keel.timeline import console, page, pftrace, picture, runs, table
 
 BUILD = ROOT / "build/schedule"
-FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-Iinclude", "-Ibsp",
-         "-Iexamples/urpilot")  # fmt: skip
-SOURCES = ("src", "bsp/common/trace.c", "bsp/common/trace_log.c", "bsp/host/host_board.c",
-           "examples/urpilot/urpilot_tasks.c", "examples/traced")  # fmt: skip
+FLAGS = (
+    "-std=c99",
+    "-O2",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-Iinclude",
+    "-Ibsp",
+    "-Iexamples/urpilot",
+)
+SOURCES = (
+    "src",
+    "bsp/common/trace.c",
+    "bsp/common/trace_log.c",
+    "bsp/host/host_board.c",
+    "examples/urpilot/urpilot_tasks.c",
+    "examples/traced",
+)
 SECONDS_MOST = 3600
 WIDTH = 160  # Of the table.
 CONSOLES = (".txt", ".log")  # What a board's console said.
@@ -66,17 +80,23 @@ def tell(log: Path) -> runs.Schedule:
     ran = schedule.runs
     promoted, missed = int(ran["promoted"].sum()), int((ran["end"] > ran["deadline"]).sum())
     lost = f"; runs were lost at {len(schedule.dropouts)} places" if schedule.dropouts else ""
-    print(f"schedule: {len(ran)} runs of {len(schedule.tasks)} tasks, {promoted} promoted, "
-          f"{missed} behind their deadlines{lost}; {shown(files[0])} for ui.perfetto.dev, "
-          f"{shown(files[1])} for any browser")  # fmt: skip
+    print(
+        f"schedule: {len(ran)} runs of {len(schedule.tasks)} tasks, {promoted} promoted, "
+        f"{missed} behind their deadlines{lost}; {shown(files[0])} for ui.perfetto.dev, "
+        f"{shown(files[1])} for any browser"
+    )
     return schedule
 
 
 def show(arguments: Sequence[str] | None) -> int:
     """Make a log, or take one; write and tell."""
     parser = Parser("Show a schedule as it ran.", "schedule")
-    parser.add_argument("file", nargs="?", metavar="FILE",
-                        help="a log in ULog with runs of tasks, or a board's console (.txt, .log)")
+    parser.add_argument(
+        "file",
+        nargs="?",
+        metavar="FILE",
+        help="a log in ULog with runs of tasks, or a board's console (.txt, .log)",
+    )
     parser.add_argument("--seconds", type=int, default=10, help="of the demo, without FILE")
     parser.add_argument("--picture", action="store_true", help="draw the demo's for the documents")
     options = parser.parse_args(arguments)

@@ -15,8 +15,17 @@ from keel.timeline.runs import Schedule, slack
 TEMPLATE = Path(__file__).with_name("page.html")
 SCRIPT = Path(__file__).with_name("page.js")
 # Typed arrays of the page's script, by their names, and how numpy has their elements.
-ARRAYS = {"task": "<u2", "start": "<f8", "length": "<u4", "late": "<f8", "deadline": "<f8",
-          "skipped": "<u2", "promoted": "u1", "slack": "<i4", "slack_after": "<i4"}  # fmt: skip
+ARRAYS = {
+    "task": "<u2",
+    "start": "<f8",
+    "length": "<u4",
+    "late": "<f8",
+    "deadline": "<f8",
+    "skipped": "<u2",
+    "promoted": "u1",
+    "slack": "<i4",
+    "slack_after": "<i4",
+}
 
 
 def packed(values: Any, kind: str) -> str:
@@ -28,25 +37,41 @@ def data_of(schedule: Schedule) -> dict[str, Any]:
     """What the page's script draws."""
     runs = schedule.runs
     columns = {
-        "task": runs["task"], "start": runs["start"], "length": runs["end"] - runs["start"],
-        "late": runs["start"] - runs["release"], "deadline": runs["deadline"],
-        "skipped": runs["skipped"], "promoted": runs["promoted"], "slack": runs["slack"],
+        "task": runs["task"],
+        "start": runs["start"],
+        "length": runs["end"] - runs["start"],
+        "late": runs["start"] - runs["release"],
+        "deadline": runs["deadline"],
+        "skipped": runs["skipped"],
+        "promoted": runs["promoted"],
+        "slack": runs["slack"],
         "slack_after": slack(runs, schedule.tasks, runs["end"]),
-    }  # fmt: skip
+    }
     return {
-        "guard": schedule.guard_us, "dropouts": schedule.dropouts,
-        "tasks": [{"name": task.name, "sort": task.sort, "period": task.period_us,
-                   "budget": task.budget_us} for task in schedule.tasks],
+        "guard": schedule.guard_us,
+        "dropouts": schedule.dropouts,
+        "tasks": [
+            {
+                "name": task.name,
+                "sort": task.sort,
+                "period": task.period_us,
+                "budget": task.budget_us,
+            }
+            for task in schedule.tasks
+        ],
         "runs": {name: packed(columns[name], kind) for name, kind in ARRAYS.items()},
-    }  # fmt: skip
+    }
 
 
 def page_of(schedule: Schedule, title: str) -> str:
     """The page."""
     data = json.dumps(data_of(schedule)).replace("<", "\\u003c")  # Nothing may end the script.
     text = read_text(TEMPLATE)
-    for mark, filled in (("{{title}}", html.escape(title)), ("{{script}}", read_text(SCRIPT)),
-                         ("{{data}}", data)):  # fmt: skip
+    for mark, filled in (
+        ("{{title}}", html.escape(title)),
+        ("{{script}}", read_text(SCRIPT)),
+        ("{{data}}", data),
+    ):
         text = text.replace(mark, filled)
     return text
 

@@ -9,11 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import (
-    Trace,
-    TrackDescriptor,
-    TrackEvent,
-)
+from perfetto.protos.perfetto.trace.perfetto_trace_pb2 import Trace, TrackDescriptor, TrackEvent
 
 from keel.base.files import write_bytes
 from keel.timeline.runs import Schedule, Task, slack
@@ -102,8 +98,14 @@ def add_run(writer: Writer, schedule: Schedule, run: Any) -> None:
         writer.slice(track + 1, WAITS, release, start)
     event = writer.slice(track, FIRST_TASK + number, start, end)
     over = end - start > schedule.tasks[number].budget_us
-    values = (start - release, end - start, int(run["slack"]), int(run["skipped"]),
-              bool(run["promoted"]), over)  # fmt: skip
+    values = (
+        start - release,
+        end - start,
+        int(run["slack"]),
+        int(run["skipped"]),
+        bool(run["promoted"]),
+        over,
+    )
     for iid, value in enumerate(values, 1):
         detail = event.debug_annotations.add(name_iid=iid)
         if isinstance(value, bool):

@@ -36,8 +36,13 @@ def draw_tasks(axes: Axes, schedule: Schedule, runs: Any) -> None:
         bars = np.column_stack((own["start"], own["end"] - own["start"])) / MS
         axes.broken_barh([tuple(bar) for bar in bars], (number - HEIGHT / 2, HEIGHT), color=colour)
         late = own[own["start"] > own["release"]]
-        axes.hlines(np.full(len(late), number), late["release"] / MS, late["start"] / MS,
-                    color=ORANGE, linewidth=1.5)  # fmt: skip
+        axes.hlines(
+            np.full(len(late), number),
+            late["release"] / MS,
+            late["start"] / MS,
+            color=ORANGE,
+            linewidth=1.5,
+        )
         axes.vlines(own["deadline"] / MS, number, number + 0.5, color=GREY, linewidth=0.8)
     axes.set_yticks(range(len(schedule.tasks)), [task.name for task in schedule.tasks], fontsize=8)
     axes.set_ylim(len(schedule.tasks) - 0.4, -0.6)
@@ -47,8 +52,12 @@ def draw_slack(axes: Axes, schedule: Schedule, runs: Any) -> None:
     """It falls with time from each end of a run on, until the release."""
     values = slack(schedule.runs, schedule.tasks, runs["end"])
     until = runs["end"] + values
-    axes.plot(np.column_stack((runs["end"], until)).T / MS, np.column_stack((values, 0 * values)).T,
-              color=BLUE, linewidth=0.8)  # fmt: skip
+    axes.plot(
+        np.column_stack((runs["end"], until)).T / MS,
+        np.column_stack((values, 0 * values)).T,
+        color=BLUE,
+        linewidth=0.8,
+    )
     guard = f"guard, {schedule.guard_us} us"
     axes.axhline(schedule.guard_us, color=RED, linewidth=1.0, label=guard)
     axes.set_ylabel("slack, us")
@@ -64,6 +73,8 @@ def plot(path: Path, schedule: Schedule, from_us: int, to_us: int) -> None:
     draw_tasks(rows[0], schedule, runs)
     draw_slack(rows[1], schedule, runs)
     rows[0].set_xlim(from_us / MS, to_us / MS)
-    rows[0].set_title("runs of real-time tasks (blue) and others (green); orange: it waits; "
-                      "grey strokes: deadlines")  # fmt: skip
+    rows[0].set_title(
+        "runs of real-time tasks (blue) and others (green); orange: it waits; "
+        "grey strokes: deadlines"
+    )
     write_svg(path, figure)

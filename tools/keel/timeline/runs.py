@@ -18,9 +18,18 @@ from keel.timeline import ulog
 
 PRIORITIES = "include/keel/rtos/priority.h"
 FIRST, PROMOTED = 1, 2  # Of a run's flags, as trace.h has them.
-RUN = np.dtype([("task", "u2"), ("release", "i8"), ("start", "i8"), ("end", "i8"),
-                ("deadline", "i8"), ("skipped", "u2"), ("promoted", "?"),
-                ("slack", "i8")])  # fmt: skip
+RUN = np.dtype(
+    [
+        ("task", "u2"),
+        ("release", "i8"),
+        ("start", "i8"),
+        ("end", "i8"),
+        ("deadline", "i8"),
+        ("skipped", "u2"),
+        ("promoted", "?"),
+        ("slack", "i8"),
+    ]
+)
 
 
 @dataclass(frozen=True)
@@ -70,8 +79,12 @@ def task_of(row: Any) -> Task:
     name = bytes(row["name"]).rstrip(b"\0").decode(errors="replace")
     if not row["period_us"]:
         raise ToolError(f"task {name!r} has no period")
-    return Task(name or f"slot {row['slot']}", int(row["period_us"]), int(row["budget_us"]),
-                int(row["priority"]))  # fmt: skip
+    return Task(
+        name or f"slot {row['slot']}",
+        int(row["period_us"]),
+        int(row["budget_us"]),
+        int(row["priority"]),
+    )
 
 
 def numbered(runs: Any, rows: Any) -> tuple[Any, list[Task]]:
@@ -82,13 +95,16 @@ def numbered(runs: Any, rows: Any) -> tuple[Any, list[Task]]:
         told[int(slot)] = iter(np.flatnonzero(rows["slot"] == slot).tolist())
     now: dict[int, int] = {}
     numbers = np.zeros(len(runs), "u2")
-    for place, (slot, flags) in enumerate(zip(runs["slot"].tolist(), runs["flags"].tolist(),
-                                              strict=True)):  # fmt: skip
+    for place, (slot, flags) in enumerate(
+        zip(runs["slot"].tolist(), runs["flags"].tolist(), strict=True)
+    ):
         if slot not in now or flags & FIRST:
             number = next(told[slot], None)
             if number is None:
-                raise ToolError(f"the run at {runs['timestamp'][place]} us is of no task that was "
-                                f"told (slot {slot})")  # fmt: skip
+                raise ToolError(
+                    f"the run at {runs['timestamp'][place]} us is of no task that was "
+                    f"told (slot {slot})"
+                )
             now[slot] = number
         numbers[place] = now[slot]
     return numbers, [task_of(row) for row in rows]

@@ -45,30 +45,68 @@ def rows_of(schedule: Schedule) -> list[Row]:
             continue
         lengths, late = own["end"] - own["start"], own["start"] - own["release"]
         counts, _ = np.histogram(late, [*EDGES, np.inf])
-        rows.append(Row(
-            task.name, task.period_us, len(own), float(lengths.mean()), int(lengths.max()),
-            task.budget_us, 100.0 * float(lengths.sum()) / span_us, int(late.max()),
-            tuple(int(count) for count in counts), int((lengths > task.budget_us).sum()),
-            int(own["promoted"].sum()), int(own["skipped"].sum()),
-            int((own["end"] > own["deadline"]).sum()),
-        ))  # fmt: skip
+        rows.append(
+            Row(
+                task.name,
+                task.period_us,
+                len(own),
+                float(lengths.mean()),
+                int(lengths.max()),
+                task.budget_us,
+                100.0 * float(lengths.sum()) / span_us,
+                int(late.max()),
+                tuple(int(count) for count in counts),
+                int((lengths > task.budget_us).sum()),
+                int(own["promoted"].sum()),
+                int(own["skipped"].sum()),
+                int((own["end"] > own["deadline"]).sum()),
+            )
+        )
     return rows
 
 
-HEADINGS = ("task", "T, ms", "runs", "mean", "longest", "budget", "load, %", "latest",
-            *(f"< {high}" for high in EDGES[1:]), "more", "over", "promoted", "skipped",
-            "missed")  # fmt: skip
+HEADINGS = (
+    "task",
+    "T, ms",
+    "runs",
+    "mean",
+    "longest",
+    "budget",
+    "load, %",
+    "latest",
+    *(f"< {high}" for high in EDGES[1:]),
+    "more",
+    "over",
+    "promoted",
+    "skipped",
+    "missed",
+)
 
 
 def table(schedule: Schedule) -> Table:
     """For people."""
-    found = Table(title="Times in us; from latest to over: runs by how late they started",
-                  title_justify="left", box=None, padding=(0, 1, 0, 0))  # fmt: skip
+    found = Table(
+        title="Times in us; from latest to over: runs by how late they started",
+        title_justify="left",
+        box=None,
+        padding=(0, 1, 0, 0),
+    )
     for heading in HEADINGS:
         found.add_column(heading, justify="left" if heading == "task" else "right", no_wrap=True)
     for row in rows_of(schedule):
-        cells = [f"{row.period_us / 1000:g}", row.runs, f"{row.mean_us:.1f}", row.longest_us,
-                 row.budget_us, f"{row.load:.2f}", row.latest_us, *row.late, row.overruns,
-                 row.promotions, row.skipped, row.missed]  # fmt: skip
+        cells = [
+            f"{row.period_us / 1000:g}",
+            row.runs,
+            f"{row.mean_us:.1f}",
+            row.longest_us,
+            row.budget_us,
+            f"{row.load:.2f}",
+            row.latest_us,
+            *row.late,
+            row.overruns,
+            row.promotions,
+            row.skipped,
+            row.missed,
+        ]
         found.add_row(escape(row.name), *(str(cell) for cell in cells))
     return found

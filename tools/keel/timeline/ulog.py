@@ -27,9 +27,20 @@ BEGIN, HEAD = 16, 3
 LARGEST = 65535 - 2  # Of a sample: what a message's length can say, less its topic.
 DEEPEST = 16  # Formats in formats.
 APPENDED, KNOWN_FLAGS = 1, 1  # Of the flags that a reader must know.
-KINDS = {"int8_t": "i1", "uint8_t": "u1", "int16_t": "<i2", "uint16_t": "<u2", "int32_t": "<i4",
-         "uint32_t": "<u4", "int64_t": "<i8", "uint64_t": "<u8", "float": "<f4", "double": "<f8",
-         "bool": "?", "char": "S1"}  # fmt: skip
+KINDS = {
+    "int8_t": "i1",
+    "uint8_t": "u1",
+    "int16_t": "<i2",
+    "uint16_t": "<u2",
+    "int32_t": "<i4",
+    "uint32_t": "<u4",
+    "int64_t": "<i8",
+    "uint64_t": "<u8",
+    "float": "<f4",
+    "double": "<f8",
+    "bool": "?",
+    "char": "S1",
+}
 FORMAT = re.compile(r"([\w/-]+):((?:\w+(?:\[\d+\])? \w+;)*\w+(?:\[\d+\])? \w+);?", re.ASCII)
 FIELD = re.compile(r"(\w+)(?:\[(\d+)\])? (\w+)", re.ASCII)
 KEY = re.compile(r"(\w+)(?:\[(\d+)\])? ([!-~]+)", re.ASCII)
@@ -156,10 +167,19 @@ class Reader:
         self._has_begun = False  # The data have; parameters are changed from here on.
         self.log = Log(struct.unpack_from("<Q", content, 8)[0])
         self._means: dict[str, Callable[[bytes], Step]] = {
-            "A": self._topic, "C": self._tagged, "D": self._data, "F": self._format,
-            "I": self._information, "L": self._text, "M": self._list, "O": self._dropout,
-            "P": self._parameter, "Q": self._default, "R": self._end, "S": self._sync,
-        }  # fmt: skip
+            "A": self._topic,
+            "C": self._tagged,
+            "D": self._data,
+            "F": self._format,
+            "I": self._information,
+            "L": self._text,
+            "M": self._list,
+            "O": self._dropout,
+            "P": self._parameter,
+            "Q": self._default,
+            "R": self._end,
+            "S": self._sync,
+        }
 
     def _step(self, kind: str, body: bytes) -> Step:
         if kind not in self._means:
@@ -226,8 +246,9 @@ class Reader:
         column = self._topics[number]
         kind, most = column.layout
         if len(body) - 2 not in (kind.itemsize, most):
-            raise WrongLength(f"{len(body) - 2} bytes of {column.topic[0]}, which has "
-                              f"{kind.itemsize}")  # fmt: skip
+            raise WrongLength(
+                f"{len(body) - 2} bytes of {column.topic[0]}, which has {kind.itemsize}"
+            )
         row = body[2 : 2 + kind.itemsize]
 
         def step() -> None:
@@ -361,8 +382,10 @@ def parts_of(content: bytes) -> list[int]:
         return [BEGIN, len(content)]
     musts = content[BEGIN + HEAD + 8 : BEGIN + HEAD + 16]
     if musts[0] & ~KNOWN_FLAGS or any(musts[1:]):
-        raise Nonsense(f"byte {BEGIN + HEAD + 8}: the flags {musts.hex(' ')} ask for a reader that "
-                       "knows more than this one")  # fmt: skip
+        raise Nonsense(
+            f"byte {BEGIN + HEAD + 8}: the flags {musts.hex(' ')} ask for a reader that "
+            "knows more than this one"
+        )
     offsets = struct.unpack_from("<QQQ", content, BEGIN + HEAD + 16) if musts[0] & APPENDED else ()
     return [begin, *sorted(each for each in offsets if begin < each < len(content)), len(content)]
 

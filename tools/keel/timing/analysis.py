@@ -170,8 +170,13 @@ class Analysis:
 
 def class_load(name: str, tasks: list[Task]) -> ClassLoad:
     """The utilisation of some tasks."""
-    return ClassLoad(name, len(tasks), float(textbook.utilisation(tasks)),
-                     textbook.liu_layland(len(tasks)), textbook.hyperbolic(tasks))  # fmt: skip
+    return ClassLoad(
+        name,
+        len(tasks),
+        float(textbook.utilisation(tasks)),
+        textbook.liu_layland(len(tasks)),
+        textbook.hyperbolic(tasks),
+    )
 
 
 def realtime_rows(tasks: TaskSet, found: Bounds) -> list[RealtimeRow]:
@@ -180,11 +185,20 @@ def realtime_rows(tasks: TaskSet, found: Bounds) -> list[RealtimeRow]:
     unguarded = textbook.fixed_priority(tasks.realtime, outside)
     guarded = textbook.fixed_priority(tasks.realtime, 0)
     return [
-        RealtimeRow(task.label, task.name, task.period, task.budget, without, within,
-                    found.realtime_guarded[task.name], found.realtime_promotion[task.name],
-                    (found.apart or {}).get(task.name), found.realtime[task.name])
+        RealtimeRow(
+            task.label,
+            task.name,
+            task.period,
+            task.budget,
+            without,
+            within,
+            found.realtime_guarded[task.name],
+            found.realtime_promotion[task.name],
+            (found.apart or {}).get(task.name),
+            found.realtime[task.name],
+        )
         for task, without, within in zip(tasks.realtime, unguarded, guarded, strict=True)
-    ]  # fmt: skip
+    ]
 
 
 def gaps_of(tasks: TaskSet) -> Gaps:
@@ -231,11 +245,20 @@ def other_rows(tasks: TaskSet, found: Bounds) -> list[OtherRow]:
     for task in tasks.others:
         bound = found.others[task.name]
         rows.append(
-            OtherRow(task.label, task.name, task.class_name, task.period, task.budget,
-                     fits(tasks, task, gaps), bound.any_phase,
-                     (found.apart or {}).get(task.name), bound.response, bound.promotion_wait,
-                     bound.promoted_response)
-        )  # fmt: skip
+            OtherRow(
+                task.label,
+                task.name,
+                task.class_name,
+                task.period,
+                task.budget,
+                fits(tasks, task, gaps),
+                bound.any_phase,
+                (found.apart or {}).get(task.name),
+                bound.response,
+                bound.promotion_wait,
+                bound.promoted_response,
+            )
+        )
     return rows
 
 
@@ -246,10 +269,19 @@ def chain_rows(tasks: TaskSet, found: Bounds) -> list[ChainRow]:
         path = tasks.path(chain)
         bound = path_bound(tasks, chain, found)
         rows.append(
-            ChainRow(chain.name, [task.label for task in path], textbook.reaction(path),
-                     chain.reaction_limit_us, textbook.freshness(path), chain.freshness_limit_us,
-                     bound.total, bound.followed, bound.least, chain.advisory)
-        )  # fmt: skip
+            ChainRow(
+                chain.name,
+                [task.label for task in path],
+                textbook.reaction(path),
+                chain.reaction_limit_us,
+                textbook.freshness(path),
+                chain.freshness_limit_us,
+                bound.total,
+                bound.followed,
+                bound.least,
+                chain.advisory,
+            )
+        )
     return rows
 
 
@@ -267,14 +299,18 @@ def admission_reasons(tasks: TaskSet) -> Iterator[str]:
         for other in tasks.others:
             need = declared(tasks, other) + guard
             if need > gap:
-                yield (f"the kernel refuses it: {other.name} needs {need} us with the guard, and "
-                       f"{task.name} leaves {max(gap, 0)} us")  # fmt: skip
+                yield (
+                    f"the kernel refuses it: {other.name} needs {need} us with the guard, and "
+                    f"{task.name} leaves {max(gap, 0)} us"
+                )
     # As the kernel counts: in parts per million, each task rounded up.
     ppm = sum(-(-declared(tasks, task) * 1_000_000 // task.period) for task in tasks.tasks)
     limit = tasks.costs.utilisation_limit_ppm
     if ppm > limit:
-        yield (f"the kernel refuses it: utilisation with the scheduler's own time, "
-               f"{ppm / 10_000:.2f} %, exceeds the limit of {limit / 10_000:.2f} %")  # fmt: skip
+        yield (
+            f"the kernel refuses it: utilisation with the scheduler's own time, "
+            f"{ppm / 10_000:.2f} %, exceeds the limit of {limit / 10_000:.2f} %"
+        )
 
 
 def realtime_reasons(tasks: TaskSet, found: Bounds) -> Iterator[str]:
@@ -283,8 +319,10 @@ def realtime_reasons(tasks: TaskSet, found: Bounds) -> Iterator[str]:
     for task in tasks.realtime:
         bound = found.realtime[task.name]
         if bound > task.period:
-            yield (f"{task.name} responds within {bound} us by its bound{behind}; its deadline is "
-                   f"{task.period} us")  # fmt: skip
+            yield (
+                f"{task.name} responds within {bound} us by its bound{behind}; its deadline is "
+                f"{task.period} us"
+            )
 
 
 def other_reasons(found: Bounds) -> Iterator[str]:
@@ -297,13 +335,13 @@ def other_reasons(found: Bounds) -> Iterator[str]:
             f"come first, {short.tails} for gaps that are too short for it"
         )
     more = "" if found.promotion_excluded else " and be promoted"
-    yield (f"tasks that are not real-time have no bounds that agree, so none is known to hold: "
-           f"they may miss deadlines{more}")  # fmt: skip
+    yield (
+        f"tasks that are not real-time have no bounds that agree, so none is known to hold: "
+        f"they may miss deadlines{more}"
+    )
 
 
-def reasons(
-    tasks: TaskSet, found: Bounds, chains: list[ChainRow]
-) -> Iterator[tuple[str, str]]:  # fmt: skip
+def reasons(tasks: TaskSet, found: Bounds, chains: list[ChainRow]) -> Iterator[tuple[str, str]]:
     """Why the set is not schedulable, or not shown to be: how it stands by that, and the reason,
     most basic first."""
     total = textbook.utilisation(tasks.tasks)
@@ -315,9 +353,12 @@ def reasons(
         yield from ((NOT_SHOWN, text) for text in other_reasons(found))
     for chain in chains:
         if not (chain.within or chain.advisory):
-            yield NOT_SHOWN, (
-                f"path {chain.name}: E = {chain.reaction} us of {chain.reaction_limit} us, "
-                f"F = {chain.freshness} us of {chain.freshness_limit} us (eq. 5 to 7)"
+            yield (
+                NOT_SHOWN,
+                (
+                    f"path {chain.name}: E = {chain.reaction} us of {chain.reaction_limit} us, "
+                    f"F = {chain.freshness} us of {chain.freshness_limit} us (eq. 5 to 7)"
+                ),
             )
 
 

@@ -18,8 +18,17 @@ from keel.timing.taskset import QUEUE_CAPACITY, Task, TaskSet
 
 BUILD = Path("build/timing")
 TURN_NS = 200  # A turn of the main loop that does nothing: 30 instructions and the loop.
-FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-Wconversion", "-I.", "-Iinclude",
-         "-Iexperiments")  # fmt: skip
+FLAGS = (
+    "-std=c99",
+    "-O2",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-Wconversion",
+    "-I.",
+    "-Iinclude",
+    "-Iexperiments",
+)
 SOURCES = ("src/rtos", "bsp/host", "experiments")
 
 
@@ -132,10 +141,11 @@ def read_result(line: str, experiment: Experiment) -> Result:
     raw["tasks"] = {name: read_task(item) for name, item in zip(names, raw["tasks"], strict=True)}
     chains = [chain.name for chain in experiment.tasks.chains]
     raw["chains"] = {
-        name: ChainOutcome(item["outputs"], item["reaction"] / 1000, item["freshness"] / 1000,
-                           item["event"] / 1000)
+        name: ChainOutcome(
+            item["outputs"], item["reaction"] / 1000, item["freshness"] / 1000, item["event"] / 1000
+        )
         for name, item in zip(chains, raw["chains"], strict=True)
-    }  # fmt: skip
+    }
     return Result(**raw)
 
 
@@ -161,8 +171,9 @@ def run_batch(
     """
     orders = "".join(experiment.orders() for experiment in experiments)
     try:
-        done = subprocess.run([program], input=orders, capture_output=True, text=True,
-                              timeout=timeout_s, check=False)  # fmt: skip
+        done = subprocess.run(
+            [program], input=orders, capture_output=True, text=True, timeout=timeout_s, check=False
+        )
     except subprocess.TimeoutExpired as error:
         raise BoardError(f"the virtual board does not end within {timeout_s:g} s") from error
     lines = done.stdout.splitlines()
@@ -171,7 +182,9 @@ def run_batch(
     results = [read_result(*pair) for pair in zip(lines, experiments, strict=True)]
     for result, experiment in zip(results, experiments, strict=True):
         if result.status != 0 and not refusals:
-            raise BoardError(f"a run of {experiment.tasks.name} ({experiment.policy}, "
-                             f"{experiment.model}) ended with status {result.status} of "
-                             "include/keel/status.h: it is no result")  # fmt: skip
+            raise BoardError(
+                f"a run of {experiment.tasks.name} ({experiment.policy}, "
+                f"{experiment.model}) ended with status {result.status} of "
+                "include/keel/status.h: it is no result"
+            )
     return results

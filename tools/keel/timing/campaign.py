@@ -110,8 +110,10 @@ def errors(trace: Sequence[Sequence[float]], start_s: float) -> str:
     """The largest errors after the fault."""
     after = [row for row in trace if row[0] >= start_s]
     most = [degrees(max(abs(row[column]) for row in after)) for column in range(1, 5)]
-    return (f"largest error, degrees: roll {most[0]:.2f}, pitch {most[1]:.2f} with the voter; "
-            f"roll {most[2]:.2f}, pitch {most[3]:.2f} with a plain mean")  # fmt: skip
+    return (
+        f"largest error, degrees: roll {most[0]:.2f}, pitch {most[1]:.2f} with the voter; "
+        f"roll {most[2]:.2f}, pitch {most[3]:.2f} with a plain mean"
+    )
 
 
 def is_good(flights: Sequence[Flight], bound: float) -> bool:
@@ -125,8 +127,10 @@ def tell(campaign: dict[str, Any]) -> None:
     bound, shown = float(campaign["bound"]), campaign["figure14"]
     for limit, group in by_limit(campaign["flights"]).items():
         print(f"\n{rule_of(limit)}:\n" + "\n".join(table(by_fault(group), bound)))
-    print(f"\nfig. 14: unit 3 frozen at {FAULT_S:.0f} s, all six channels latched after "
-          f"{1000.0 * shown['all_latched_s']:.0f} ms")  # fmt: skip
+    print(
+        f"\nfig. 14: unit 3 frozen at {FAULT_S:.0f} s, all six channels latched after "
+        f"{1000.0 * shown['all_latched_s']:.0f} ms"
+    )
     print(f"fig. 14: {errors(shown['trace'], FAULT_S)}")
     print(f"written: {BUILD}/campaign.json, figure14.svg, faults.svg")
 

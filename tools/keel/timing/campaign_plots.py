@@ -55,8 +55,10 @@ def draw_errors(axes: Axes, campaign: Campaign, bound: float) -> None:
             axes.text(error + 0.01, place, f"{error:.2f}", va="center", fontsize=7)
     axes.axvline(bound, color=RED, linewidth=1.2)
     axes.text(bound, -0.75, f"proved bound: {bound} a ", color=RED, ha="right", va="bottom")
-    axes.set(xlabel="worst error of the output; a: how far healthy units may differ",
-             xlim=(0.0, 1.16 * bound))  # fmt: skip
+    axes.set(
+        xlabel="worst error of the output; a: how far healthy units may differ",
+        xlim=(0.0, 1.16 * bound),
+    )
 
 
 def draw_latencies(axes: Axes, campaign: Campaign) -> None:
@@ -71,8 +73,11 @@ def draw_latencies(axes: Axes, campaign: Campaign) -> None:
                 axes.plot([min(seen), max(seen)], [y, y], color=colour, marker="o", markersize=4)
             else:
                 axes.text(LEAST_MS * 1.1, y, "never", va="center", fontsize=7, color=GREY)
-    axes.set(xscale="log", xlim=(LEAST_MS, MOST_MS),
-             xlabel="from the fault to its latch in all channels, ms")  # fmt: skip
+    axes.set(
+        xscale="log",
+        xlim=(LEAST_MS, MOST_MS),
+        xlabel="from the fault to its latch in all channels, ms",
+    )
     axes.minorticks_off()
     axes.set_xticks([100, 1000, 10_000], ["100", "1000", "10 000"])
 

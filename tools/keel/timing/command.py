@@ -103,8 +103,11 @@ def run_table(options: argparse.Namespace) -> int:
         return 0
     wrong = ctable.stale(files, options.folder)
     for name in wrong:
-        print(f"{options.folder / name}:1: stale: not what {options.taskset} gives; "
-              "`make tables` regenerates it", file=sys.stderr)  # fmt: skip
+        print(
+            f"{options.folder / name}:1: stale: not what {options.taskset} gives; "
+            "`make tables` regenerates it",
+            file=sys.stderr,
+        )
     print(f"table: {options.folder}: {f'{len(wrong)} stale files' if wrong else 'up to date'}")
     return 1 if wrong else 0
 
@@ -119,12 +122,15 @@ def run_all_experiments(options: argparse.Namespace) -> int:
     plot_tasks(tasks, results, folder / "deviation.svg")
     plot_paths(findings.report["paths"], folder / "figure10.svg")
     write_json(folder / "experiments.json", findings.report)
-    print(f"written: {BUILD}/experiments/experiments.json, figure10.svg, figure12.svg, "
-          "deviation.svg")  # fmt: skip
+    print(
+        f"written: {BUILD}/experiments/experiments.json, figure10.svg, figure12.svg, deviation.svg"
+    )
     met = sum(goal.met for goal in findings.goals)
     known = len(findings.goals) - met - len(findings.unexplained)
-    print(f"timing: {met} goals met, {known} missed for known reasons, {len(findings.unexplained)} "
-          f"FAILED, in {time.monotonic() - began:.0f} s")  # fmt: skip
+    print(
+        f"timing: {met} goals met, {known} missed for known reasons, {len(findings.unexplained)} "
+        f"FAILED, in {time.monotonic() - began:.0f} s"
+    )
     return 1 if findings.unexplained else 0
 
 

@@ -127,12 +127,16 @@ def table(tasks: TaskSet, source: str) -> dict[str, str]:
     guard, limit = f"{tasks.costs.guard_us}u", f"{tasks.costs.utilisation_limit_ppm}u"
     width = max(len(guard), len(limit))
     words = {
-        "name": tasks.name, "upper": upper, "count": len(tasks.tasks), "source": source,
-        "guard": guard.ljust(width), "limit": limit.ljust(width),
+        "name": tasks.name,
+        "upper": upper,
+        "count": len(tasks.tasks),
+        "source": source,
+        "guard": guard.ljust(width),
+        "limit": limit.ljust(width),
         "indices": ",\n".join(symbols),
         "more": WITHOUT_PROMOTION if tasks.costs.without_promotion else "",
         "rows": "\n".join(row(tasks, task) for task in tasks.tasks),
-    }  # fmt: skip
+    }
     return {
         f"{tasks.name}_tasks.h": HEADER.format(**words),
         f"{tasks.name}_tasks.c": SOURCE.format(**words),

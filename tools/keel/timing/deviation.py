@@ -44,10 +44,16 @@ def show_deviation(tasks: TaskSet, results: Deviations, findings: Findings) -> N
     """Table 2's last column and fig. 12."""
     names = [variant.name for variant in variants(tasks)]
     rows: list[list[Cell]] = [
-        [task.label, task.name, task.class_name, task.period // 1000, task.sigma,
-         *(sigma(tasks, results[name, GOAL_MODEL], task.name) for name in names)]
+        [
+            task.label,
+            task.name,
+            task.class_name,
+            task.period // 1000,
+            task.sigma,
+            *(sigma(tasks, results[name, GOAL_MODEL], task.name) for name in names),
+        ]
         for task in tasks.tasks
-    ]  # fmt: skip
+    ]
     costs = tasks.costs
     findings.say(
         f"A pass costs {costs.pass_us} us, a dispatch {costs.dispatch_us} us, an idle turn "
@@ -57,11 +63,16 @@ def show_deviation(tasks: TaskSet, results: Deviations, findings: Findings) -> N
     title = f"Period deviation (eq. 15, {SAMPLES} periods), % of the period, times in 50 % to 100 %"
     findings.show(title, ["", "task", "class", "T, ms", "paper", *names], rows, 3)
     rows = [
-        [class_name, model, paper_class_sigma(tasks, class_name), goal,
-         *(class_sigma(tasks, results[name, model], class_name) for name in names)]
+        [
+            class_name,
+            model,
+            paper_class_sigma(tasks, class_name),
+            goal,
+            *(class_sigma(tasks, results[name, model], class_name) for name in names),
+        ]
         for class_name, goal in SIGMA_GOALS.items()
         for model in MODELS
-    ]  # fmt: skip
+    ]
     title = "Fig. 12: mean deviation by class, % of the period"
     findings.show(title, ["class", "times", "paper", "goal", *names], rows, 2)
     show_together(tasks, results, findings)
@@ -120,11 +131,15 @@ class Together:
 def together(tasks: TaskSet, results: Deviations) -> list[Together]:
     """Every class without phases."""
     return [
-        Together(name, goal, class_sigma(tasks, results["no phases", GOAL_MODEL], name),
-                 least_of_class(tasks, name, behind=False),
-                 least_of_class(tasks, name, behind=True))
+        Together(
+            name,
+            goal,
+            class_sigma(tasks, results["no phases", GOAL_MODEL], name),
+            least_of_class(tasks, name, behind=False),
+            least_of_class(tasks, name, behind=True),
+        )
         for name, goal in SIGMA_GOALS.items()
-    ]  # fmt: skip
+    ]
 
 
 NOTE_TOGETHER = (
@@ -141,12 +156,26 @@ def show_together(tasks: TaskSet, results: Deviations, findings: Findings) -> No
     """The set without phases, beside what no scheduler could do about it."""
     found = together(tasks, results)
     rows: list[list[Cell]] = [
-        [item.name, item.goal, class_sigma(tasks, results["Keel", GOAL_MODEL], item.name),
-         item.measured, item.alone, item.behind, item.excluded]
+        [
+            item.name,
+            item.goal,
+            class_sigma(tasks, results["Keel", GOAL_MODEL], item.name),
+            item.measured,
+            item.alone,
+            item.behind,
+            item.excluded,
+        ]
         for item in found
-    ]  # fmt: skip
-    columns = ["class", "goal", "Keel", "no phases", "least, served first",
-               "least, behind classes above", "goal is excluded"]  # fmt: skip
+    ]
+    columns = [
+        "class",
+        "goal",
+        "Keel",
+        "no phases",
+        "least, served first",
+        "least, behind classes above",
+        "goal is excluded",
+    ]
     title = "All released together: mean deviation by class, % of the period, times in 50 % to"
     findings.report["together"] = findings.show(f"{title} 100 %", columns, rows)
     findings.say(NOTE_TOGETHER)
@@ -158,8 +187,12 @@ def show_together(tasks: TaskSet, results: Deviations, findings: Findings) -> No
     )
     findings.say(compared(tasks, results))
     open_goals = [item.name for item in found if not item.explained]
-    findings.goal("deviation, no phases", "missed only where the order cannot help",
-                  f"open: {', '.join(open_goals) or 'none'}", not open_goals)  # fmt: skip
+    findings.goal(
+        "deviation, no phases",
+        "missed only where the order cannot help",
+        f"open: {', '.join(open_goals) or 'none'}",
+        not open_goals,
+    )
 
 
 REASON_TURN = (
@@ -182,29 +215,44 @@ def judge_deviation(tasks: TaskSet, results: Deviations, findings: Findings) -> 
     """The goals for eq. 15, and that nothing drifts."""
     for class_name, limit in SIGMA_GOALS.items():
         value = class_sigma(tasks, results["Keel", GOAL_MODEL], class_name)
-        findings.goal(f"deviation, {class_name}", f"below {limit} %", f"{value:.4f} %",
-                      value < limit)  # fmt: skip
+        findings.goal(
+            f"deviation, {class_name}", f"below {limit} %", f"{value:.4f} %", value < limit
+        )
         value = class_sigma(tasks, results["spread", GOAL_MODEL], class_name)
-        findings.goal(f"deviation, {class_name}, phases found by the kernel", f"below {limit} %",
-                      f"{value:.4f} %", value < limit)  # fmt: skip
+        findings.goal(
+            f"deviation, {class_name}, phases found by the kernel",
+            f"below {limit} %",
+            f"{value:.4f} %",
+            value < limit,
+        )
     for name in ("Keel", "RT phases"):
         value = class_sigma(tasks, results[name, GOAL_MODEL], "real-time")
-        findings.goal(f"deviation, real-time, {name}", f"below {REALTIME_SIGMA_GOAL} %",
-                      f"{value:.4f} %", value < REALTIME_SIGMA_GOAL)  # fmt: skip
+        findings.goal(
+            f"deviation, real-time, {name}",
+            f"below {REALTIME_SIGMA_GOAL} %",
+            f"{value:.4f} %",
+            value < REALTIME_SIGMA_GOAL,
+        )
     value = class_sigma(tasks, results["5 us turn", GOAL_MODEL], "real-time")
     findings.goal(
         "deviation, real-time, 5 us turn",
-        f"below {REALTIME_SIGMA_GOAL} %", f"{value:.4f} %", value < REALTIME_SIGMA_GOAL,
+        f"below {REALTIME_SIGMA_GOAL} %",
+        f"{value:.4f} %",
+        value < REALTIME_SIGMA_GOAL,
         excuse(REASON_TURN, value, turn_ceiling(tasks, 5000)),
-    )  # fmt: skip
+    )
     worst = max(
         drift(variant.tasks, results[variant.name, model])
         for variant in variants(tasks)
         for model in ("constant", GOAL_MODEL)
         if variant.policy == "keel"
     )
-    findings.goal("mean period", "exact: every start belongs to its own release",
-                  f"last start at most {worst:.3f} T after it", worst < 1.0)  # fmt: skip
+    findings.goal(
+        "mean period",
+        "exact: every start belongs to its own release",
+        f"last start at most {worst:.3f} T after it",
+        worst < 1.0,
+    )
 
 
 def drift(tasks: TaskSet, result: Result) -> float:

@@ -31,8 +31,13 @@ LONG_US = 1001 * SECOND + SECOND // 2  # 1000 periods of the slowest task.
 MODELS = ("constant", "uniform", "heavy")
 GOAL_MODEL = "uniform"
 # The best measured among Cleanflight and Betaflight in each class, percent of the period.
-SIGMA_GOALS = {"low": 0.091, "medium": 0.261, "medium-high": 0.202, "high": 0.303,
-               "real-time": 0.384}  # fmt: skip
+SIGMA_GOALS = {
+    "low": 0.091,
+    "medium": 0.261,
+    "medium-high": 0.202,
+    "high": 0.303,
+    "real-time": 0.384,
+}
 REALTIME_SIGMA_GOAL = 0.05
 HOUR_GOAL_S = 10.0
 

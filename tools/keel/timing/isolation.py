@@ -54,9 +54,7 @@ def nothing_promoted(tasks: TaskSet, found: Bounds) -> str:
     return ""
 
 
-def theorem_of(
-    tasks: TaskSet, unpromoted: str, refusals: Iterable[str]
-) -> tuple[str | None, str]:
+def theorem_of(tasks: TaskSet, unpromoted: str, refusals: Iterable[str]) -> tuple[str | None, str]:
     """The stronger theorem that holds, and why; or why none does."""
     refusal = next(iter(refusals), None)
     if refusal is not None:
@@ -81,8 +79,9 @@ def start_of(tasks: TaskSet, task: Task, longest: int, theorem: str | None) -> S
     unpromoted = demand - own + guard
     whatever = turn - own if turn <= task.period else turn
     bound = {UNPROMOTED: unpromoted, WHATEVER: whatever}.get(theorem or "")
-    return Start(task.label, task.name, task.period, unpromoted, whatever,
-                 turn > task.period, bound)  # fmt: skip
+    return Start(
+        task.label, task.name, task.period, unpromoted, whatever, turn > task.period, bound
+    )
 
 
 def isolation_of(tasks: TaskSet, found: Bounds, refusals: Iterable[str]) -> Isolation:

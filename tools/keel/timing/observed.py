@@ -50,8 +50,11 @@ REASON_ADVICE = "these limits are advice: it is not known whether the paper has 
 def seen_on(results: Deviations, variant: str, chain: str) -> Seen:
     """The longest on a path, with all models that keep to the budgets."""
     runs = [results[variant, model].chains[chain] for model in ("constant", GOAL_MODEL)]
-    return Seen(max(run.reaction for run in runs), max(run.freshness for run in runs),
-                max(run.event for run in runs))  # fmt: skip
+    return Seen(
+        max(run.reaction for run in runs),
+        max(run.freshness for run in runs),
+        max(run.event for run in runs),
+    )
 
 
 def show_paths(tasks: TaskSet, results: Deviations, findings: Findings) -> None:
@@ -64,15 +67,41 @@ def show_paths(tasks: TaskSet, results: Deviations, findings: Findings) -> None:
     for chain in tasks.chains:
         path = tasks.path(chain)
         phased, together = (seen_on(results, name, chain.name) for name in ("Keel", "no phases"))
-        rows.append([chain.name, phased.reaction, together.reaction, textbook.reaction(path),
-                     chain.reaction_limit_us, phased.freshness, together.freshness,
-                     textbook.freshness(path), chain.freshness_limit_us])  # fmt: skip
-        events.append([chain.name, phased.event, path_bound(tasks, chain, bounds[0]).least,
-                       together.event, path_bound(plain, chain, bounds[1]).least,
-                       chain.reaction_limit_us])  # fmt: skip
+        rows.append(
+            [
+                chain.name,
+                phased.reaction,
+                together.reaction,
+                textbook.reaction(path),
+                chain.reaction_limit_us,
+                phased.freshness,
+                together.freshness,
+                textbook.freshness(path),
+                chain.freshness_limit_us,
+            ]
+        )
+        events.append(
+            [
+                chain.name,
+                phased.event,
+                path_bound(tasks, chain, bounds[0]).least,
+                together.event,
+                path_bound(plain, chain, bounds[1]).least,
+                chain.reaction_limit_us,
+            ]
+        )
         worst[chain.name] = phased
-    columns = ["path", "E seen", "E, no phases", "E, eq. 5, 6", "limit", "F seen",
-               "F, no phases", "F, eq. 7", "limit"]  # fmt: skip
+    columns = [
+        "path",
+        "E seen",
+        "E, no phases",
+        "E, eq. 5, 6",
+        "limit",
+        "F seen",
+        "F, no phases",
+        "F, eq. 7",
+        "limit",
+    ]
     findings.show("Fig. 10: reaction and freshness, us", columns, rows)
     findings.say(
         "Seen: from the start of the run that takes a sample to the end of the first (E) or any "
@@ -88,8 +117,12 @@ def show_paths(tasks: TaskSet, results: Deviations, findings: Findings) -> None:
     findings.report["paths"] = rows
     findings.report["events"] = events
     beyond = [row[0] for row in events if float(row[3] or 0.0) > float(row[4] or 0.0)]
-    findings.goal("paths, no phases", "observed within the safe bound",
-                  f"beyond: {beyond}" if beyond else "all", not beyond)  # fmt: skip
+    findings.goal(
+        "paths, no phases",
+        "observed within the safe bound",
+        f"beyond: {beyond}" if beyond else "all",
+        not beyond,
+    )
     judge_paths(tasks, worst, findings)
 
 
@@ -138,16 +171,21 @@ def show_realtime(tasks: TaskSet, results: Deviations, findings: Findings) -> No
     columns = ["", "task", "deviation, us", "worst response, us", "bound, us"]
     findings.show("Real-time tasks, times in 50 % to 100 %", columns, rows, 2)
     findings.report["realtime"] = rows
-    findings.goal("real-time responses", "never above the analyser's bound",
-                  "never" if held else "EXCEEDED", held)  # fmt: skip
+    findings.goal(
+        "real-time responses",
+        "never above the analyser's bound",
+        "never" if held else "EXCEEDED",
+        held,
+    )
     kept = all(
         results[variant, model].tasks[name].worst <= (bound.response or 0)
         for variant, bounded in (("Keel", tasks), ("no phases", without_phases(tasks)))
         for name, bound in bounds_of(bounded).others.items()
         for model in ("constant", GOAL_MODEL)
     )
-    findings.goal("other responses", "never above the analyser's bound",
-                  "never" if kept else "EXCEEDED", kept)  # fmt: skip
+    findings.goal(
+        "other responses", "never above the analyser's bound", "never" if kept else "EXCEEDED", kept
+    )
 
 
 def show_contradictions(tasks: TaskSet, findings: Findings) -> None:

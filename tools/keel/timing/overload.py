@@ -99,15 +99,33 @@ def overload(tasks: TaskSet, runner: Runner, findings: Findings) -> None:
         missed = sum(result.tasks[task.name].skipped for task in plan.tasks.realtime)
         outcomes = [result.tasks[task.name] for task in plan.tasks.others]
         gap = max(result.tasks[task.name].gap / task.period for task in plan.tasks.others)
-        rows.append([name, worst, overload_bound(plan), missed,
-                     sum(item.skipped for item in outcomes),
-                     sum(item.overruns for item in outcomes),
-                     sum(item.promotions for item in outcomes), gap,
-                     " ".join(silent(plan, result)) or "none",
-                     "yes" if counted(plan, result) else "NO"])  # fmt: skip
+        rows.append(
+            [
+                name,
+                worst,
+                overload_bound(plan),
+                missed,
+                sum(item.skipped for item in outcomes),
+                sum(item.overruns for item in outcomes),
+                sum(item.promotions for item in outcomes),
+                gap,
+                " ".join(silent(plan, result)) or "none",
+                "yes" if counted(plan, result) else "NO",
+            ]
+        )
         judge_overload(name, plan, result, findings)
-    columns = ["overload", "RT worst, us", "bound with it, us", "RT skipped", "others skipped",
-               "overruns", "promotions", "longest gap, T", "starved", "all counted"]  # fmt: skip
+    columns = [
+        "overload",
+        "RT worst, us",
+        "bound with it, us",
+        "RT skipped",
+        "others skipped",
+        "overruns",
+        "promotions",
+        "longest gap, T",
+        "starved",
+        "all counted",
+    ]
     findings.report["overload"] = findings.show("Overload", columns, rows)
     findings.say(
         "The bound is that of a pass with the overload's longest run in it, not the one for runs "
@@ -119,26 +137,44 @@ def judge_overload(name: str, plan: Experiment, result: Result, findings: Findin
     """The goals under overload."""
     starved = silent(plan, result)
     if plan.policy == "paper":
-        findings.goal(f"{name}: the paper's rule", "starves the task for ever",
-                      f"starved: {' '.join(starved) or 'none'}", bool(starved))  # fmt: skip
+        findings.goal(
+            f"{name}: the paper's rule",
+            "starves the task for ever",
+            f"starved: {' '.join(starved) or 'none'}",
+            bool(starved),
+        )
         return
     worst = max(result.tasks[task.name].worst for task in plan.tasks.realtime)
     bound = overload_bound(plan)
     shortest = min(task.period for task in plan.tasks.realtime)
-    findings.goal(f"{name}: real-time", f"within {bound} us, the overrun in it",
-                  f"{worst:.1f} us", worst <= bound)  # fmt: skip
+    findings.goal(
+        f"{name}: real-time",
+        f"within {bound} us, the overrun in it",
+        f"{worst:.1f} us",
+        worst <= bound,
+    )
     if bound > shortest:
         missed = sum(result.tasks[task.name].skipped for task in plan.tasks.realtime)
         findings.goal(
-            f"{name}: real-time", f"within the period of {shortest} us",
-            f"{worst:.1f} us, {missed} releases skipped and counted", worst <= shortest,
+            f"{name}: real-time",
+            f"within the period of {shortest} us",
+            f"{worst:.1f} us, {missed} releases skipped and counted",
+            worst <= shortest,
             f"nothing preempts a run of {longest_run(plan)} us: a longer run than the gap costs "
             "real-time releases whatever the rule",
-        )  # fmt: skip
-    findings.goal(f"{name}: others", "every task keeps running",
-                  f"starved: {' '.join(starved) or 'none'}", not starved)  # fmt: skip
-    findings.goal(f"{name}: counters", "account for every release",
-                  "all" if counted(plan, result) else "NOT all", counted(plan, result))  # fmt: skip
+        )
+    findings.goal(
+        f"{name}: others",
+        "every task keeps running",
+        f"starved: {' '.join(starved) or 'none'}",
+        not starved,
+    )
+    findings.goal(
+        f"{name}: counters",
+        "account for every release",
+        "all" if counted(plan, result) else "NOT all",
+        counted(plan, result),
+    )
 
 
 def clock(tasks: TaskSet, runner: Runner, findings: Findings) -> None:
@@ -152,18 +188,24 @@ def clock(tasks: TaskSet, runner: Runner, findings: Findings) -> None:
     results = runner.run("clock", plans)
     reference = results["from 0"]
     same = all(result == reference for result in results.values())
-    findings.goal("clock wrap", "identical results across 2^32 us",
-                  f"fingerprint {reference.fingerprint}" if same else "DIFFERENT",
-                  same)  # fmt: skip
+    findings.goal(
+        "clock wrap",
+        "identical results across 2^32 us",
+        f"fingerprint {reference.fingerprint}" if same else "DIFFERENT",
+        same,
+    )
     began = time.monotonic()
     (hour,) = run_batch(
         runner.program, [Experiment(tasks, model=GOAL_MODEL, duration_us=3600 * SECOND)], 300.0
     )
     seconds = time.monotonic() - began
     runs = sum(outcome.runs for outcome in hour.tasks.values())
-    findings.goal("speed", f"one simulated hour in {HOUR_GOAL_S:.0f} s",
-                  f"{seconds:.1f} s, {runs} runs, {hour.passes} passes",
-                  seconds <= HOUR_GOAL_S)  # fmt: skip
+    findings.goal(
+        "speed",
+        f"one simulated hour in {HOUR_GOAL_S:.0f} s",
+        f"{seconds:.1f} s, {runs} runs, {hour.passes} passes",
+        seconds <= HOUR_GOAL_S,
+    )
     findings.report["clock"] = {"fingerprints": {n: r.fingerprint for n, r in results.items()}}
     findings.say(f"One simulated hour: {seconds:.1f} s of real time, {runs} runs of tasks.\n")
 
@@ -185,8 +227,9 @@ def readings(tasks: TaskSet, runner: Runner, findings: Findings) -> None:
     for name, result in runner.run("eq. 3", plans).items():
         often = [result.tasks[task.name].runs / (READING_US / task.period) for task in plain.others]
         load = (100_000 - result.idle_mean_us) / 1000
-        rows.append([READINGS[name], sum(value == 0 for value in often), min(often), max(often),
-                     load])  # fmt: skip
+        rows.append(
+            [READINGS[name], sum(value == 0 for value in often), min(often), max(often), load]
+        )
     columns = ["eq. 3 read as", "others that never run", "runs a period, least", "most", "load, %"]
     title = "Readings of eq. 3, constant WCET, no phases"
     findings.report["readings"] = findings.show(title, columns, rows)

@@ -47,22 +47,34 @@ class Box(NamedTuple):
 
 FLIES = (
     Box("your tasks", "functions with a period, a budget and a priority", GREY),
-    Box("Keel: flight", "filter   pid   mixer   reference   mode   calibration\n"
-        "attitude   axis   altitude   position   battery   cascade", BLUE),
-    Box("Keel: middleware", "range   oversample   voter   virtual_imu   crc\n"
+    Box(
+        "Keel: flight",
+        "filter   pid   mixer   reference   mode   calibration\n"
+        "attitude   axis   altitude   position   battery   cascade",
+        BLUE,
+    ),
+    Box(
+        "Keel: middleware",
+        "range   oversample   voter   virtual_imu   crc\n"
         "ms5611   power_module   framing   sbus   crsf   ibus   ppm   ubx   mavlink   log_ring\n"
-        "signing   ulog", BLUE),
-    Box("Keel: rtos", "scheduler   pass   spread   lateness   admission   decision\n"
-        "queue   task   stats   load   deviation   priority   clock", BLUE),
+        "signing   ulog",
+        BLUE,
+    ),
+    Box(
+        "Keel: rtos",
+        "scheduler   pass   spread   lateness   admission   decision\n"
+        "queue   task   stats   load   deviation   priority   clock",
+        BLUE,
+    ),
     Box("your board", "a microsecond counter; drivers for two boards are here", GREY),
-)  # fmt: skip
+)
 SHOWS = (
     Box("contract of each function", "for all inputs; of floats: by CBMC", GREEN, "Frama-C/WP"),
     Box("executable specification", "same result, same fields, floats bit for bit", GREEN, "CBMC"),
     Box("error bounds", "what rounding adds to the voter's mean", GREEN, "Gappa"),
     Box("mistakes on purpose", "a proof must notice each", RED, "mutants"),
     Box("tests", "on the host and on an emulated Cortex-M7", ORANGE, "sanitizers, QEMU"),
-)  # fmt: skip
+)
 HEIGHT, STEP = 0.66, 0.77  # Of a box, and from one to the next.
 
 

@@ -43,15 +43,24 @@ def plot_classes(tasks: TaskSet, results: Deviations, path: Path) -> None:
     width = 0.8 / len(series)
     for number, (name, values) in enumerate(series.items()):
         places = [place + (number - len(series) / 2 + 0.5) * width for place in range(len(values))]
-        axes.bar(places, [max(value, FLOOR) for value in values], width, color=STYLES[name],
-                 label=SHOWN.get(name, name))  # fmt: skip
+        axes.bar(
+            places,
+            [max(value, FLOOR) for value in values],
+            width,
+            color=STYLES[name],
+            label=SHOWN.get(name, name),
+        )
     for place, goal in enumerate(SIGMA_GOALS.values()):
         label = "goal" if place == 0 else "_more"  # A legend leaves out names that begin so.
         axes.hlines(goal, place - 0.4, place + 0.4, color="black", linewidth=1.0, label=label)
     axes.set_xticks(range(len(SIGMA_GOALS)), list(SIGMA_GOALS))
-    axes.set(yscale="log", ylim=(FLOOR, 10.0), xlabel="priority class",
-             ylabel="standard deviation of the period, % of it",
-             title="How steady tasks start, by priority class (fig. 12)")  # fmt: skip
+    axes.set(
+        yscale="log",
+        ylim=(FLOOR, 10.0),
+        xlabel="priority class",
+        ylabel="standard deviation of the period, % of it",
+        title="How steady tasks start, by priority class (fig. 12)",
+    )
     grid_along(axes, "y")
     figure.legend(loc="outside lower center", ncols=4)
     write_svg(path, figure)
@@ -62,16 +71,26 @@ def plot_tasks(tasks: TaskSet, results: Deviations, path: Path) -> None:
     figure = new_figure(9.0, 4.5)
     axes = figure.add_subplot()
     places = range(len(tasks.tasks))
-    axes.plot(places, [max(task.sigma or 0.0, FLOOR) for task in tasks.tasks], "_",
-              color=STYLES[PAPER], label=PAPER, markersize=12)  # fmt: skip
+    axes.plot(
+        places,
+        [max(task.sigma or 0.0, FLOOR) for task in tasks.tasks],
+        "_",
+        color=STYLES[PAPER],
+        label=PAPER,
+        markersize=12,
+    )
     for (variant, label), mark in zip(SHOWN.items(), "ox^sd", strict=True):
         result = results[variant, GOAL_MODEL]
         values = [max(sigma(tasks, result, task.name), FLOOR) for task in tasks.tasks]
         axes.plot(places, values, mark, color=STYLES[variant], label=label, markersize=5)
     axes.set_xticks(places, [task.label for task in tasks.tasks])
-    axes.set(yscale="log", ylim=(0.7 * FLOOR, 20.0), xlabel="task of table 2",
-             ylabel="standard deviation of the period, % of it",
-             title="How steady each task starts (eq. 15)")  # fmt: skip
+    axes.set(
+        yscale="log",
+        ylim=(0.7 * FLOOR, 20.0),
+        xlabel="task of table 2",
+        ylabel="standard deviation of the period, % of it",
+        title="How steady each task starts (eq. 15)",
+    )
     grid_along(axes, "y")
     figure.legend(loc="outside lower center", ncols=3)
     write_svg(path, figure)
@@ -89,8 +108,14 @@ def plot_paths(rows: Sequence[Row], path: Path) -> None:
             axes.bar(places, values, 0.25, color=colour, label=label)
         for place, row in enumerate(rows):
             limit = float(row[first + len(kinds)] or 0.0) / 1000
-            axes.hlines(limit, place - 0.4, place + 0.4, color="black", linewidth=1.0,
-                        label="limit" if place == 0 else "_more")  # fmt: skip
+            axes.hlines(
+                limit,
+                place - 0.4,
+                place + 0.4,
+                color="black",
+                linewidth=1.0,
+                label="limit" if place == 0 else "_more",
+            )
         axes.set(ylabel="time, ms", title=f"{title} of each path (fig. 10)")
         grid_along(axes, "y")
     lower.set_xticks(range(len(rows)), [str(row[0]).replace(", ", ",\n") for row in rows])

@@ -52,11 +52,13 @@ NOTE_CHAINS = (
 def load_row(load: ClassLoad) -> list[Cell]:
     """A row of the table of utilisations."""
     return [
-        load.name, load.tasks, load.utilisation,
+        load.name,
+        load.tasks,
+        load.utilisation,
         f"{load.liu_layland:.4f} {'yes' if load.utilisation <= load.liu_layland else 'NO'}",
         f"{load.hyperbolic:.4f} {'yes' if load.hyperbolic <= 2.0 else 'NO'}",
         "yes" if load.utilisation <= 1.0 else "NO",
-    ]  # fmt: skip
+    ]
 
 
 def print_utilisation(analysis: Analysis, out: Console) -> None:
@@ -90,12 +92,30 @@ def print_utilisation(analysis: Analysis, out: Console) -> None:
 def print_realtime(analysis: Analysis, out: Console) -> None:
     """Real-time response times and Jeffay's condition."""
     rows: list[list[Cell]] = [
-        [row.label, row.name, row.period, row.budget, row.unguarded, row.guarded, row.bound,
-         row.bound_promotion, row.bound_apart]
+        [
+            row.label,
+            row.name,
+            row.period,
+            row.budget,
+            row.unguarded,
+            row.guarded,
+            row.bound,
+            row.bound_promotion,
+            row.bound_apart,
+        ]
         for row in analysis.realtime_rows
-    ]  # fmt: skip
-    columns = ["", "real-time task", "T = D", "C", "textbook, no guard", "textbook, guard",
-               "Keel, guard", "Keel, promotion", "with these phases"]  # fmt: skip
+    ]
+    columns = [
+        "",
+        "real-time task",
+        "T = D",
+        "C",
+        "textbook, no guard",
+        "textbook, guard",
+        "Keel, guard",
+        "Keel, promotion",
+        "with these phases",
+    ]
     out.print(table("Worst response times, us", columns, rows, 2))
     out.print(NOTE_REALTIME)
     why = analysis.isolation.unpromoted
@@ -105,9 +125,13 @@ def print_realtime(analysis: Analysis, out: Console) -> None:
     verdict = (
         "holds" if found.holds else ("fails" if found.decided else "too many points to decide")
     )
-    where = "" if found.slack is None else (
-        f", least slack {found.slack} us at L = {found.interval} us, blocked by {found.blocker}"
-    )  # fmt: skip
+    where = (
+        ""
+        if found.slack is None
+        else (
+            f", least slack {found.slack} us at L = {found.interval} us, blocked by {found.blocker}"
+        )
+    )
     out.print(f"Jeffay's condition for non-preemptive EDF over all tasks: {verdict}{where}.\n")
 
 
@@ -117,10 +141,17 @@ def print_isolation(analysis: Analysis, out: Console) -> None:
     if not isolation.starts:
         return
     rows: list[list[Cell]] = [
-        [row.label, row.name, row.period, row.unpromoted, row.whatever,
-         "may be" if row.skipping else "none", row.bound]
+        [
+            row.label,
+            row.name,
+            row.period,
+            row.unpromoted,
+            row.whatever,
+            "may be" if row.skipping else "none",
+            row.bound,
+        ]
         for row in isolation.starts
-    ]  # fmt: skip
+    ]
     columns = ["", "real-time task", "T", UNPROMOTED, WHATEVER, "skipped by it", "holds"]
     out.print(table("Latest starts, us from the release", columns, rows, 2))
     out.print(NOTE_ISOLATION)
@@ -141,12 +172,32 @@ def isolation_verdict(isolation: Isolation) -> str:
 def print_others(analysis: Analysis, out: Console) -> None:
     """The other tasks: gaps, bounds, promotion."""
     rows: list[list[Cell]] = [
-        [row.label, row.name, row.class_name, row.period, row.budget, row.fits, row.bound,
-         row.bound_apart, row.promotion_wait, row.promoted_bound]
+        [
+            row.label,
+            row.name,
+            row.class_name,
+            row.period,
+            row.budget,
+            row.fits,
+            row.bound,
+            row.bound_apart,
+            row.promotion_wait,
+            row.promoted_bound,
+        ]
         for row in analysis.other_rows
-    ]  # fmt: skip
-    columns = ["", "task", "class", "T = D", "C", "gaps it fits", "response <=",
-               "with these phases", "promoted after", "then done by"]  # fmt: skip
+    ]
+    columns = [
+        "",
+        "task",
+        "class",
+        "T = D",
+        "C",
+        "gaps it fits",
+        "response <=",
+        "with these phases",
+        "promoted after",
+        "then done by",
+    ]
     out.print(table("Tasks that are not real-time, us from the release", columns, rows, 3))
     if analysis.gaps.shortest is not None:
         out.print(
@@ -190,13 +241,32 @@ def print_chains(analysis: Analysis, out: Console) -> None:
     if not analysis.chains:
         return
     rows: list[list[Cell]] = [
-        [row.name, " ".join(row.path), row.reaction, row.reaction_limit, row.freshness,
-         row.freshness_limit, chain_verdict(row), row.conventional, row.followed,
-         "safe" if row.safe_within else "NOT safe"]
+        [
+            row.name,
+            " ".join(row.path),
+            row.reaction,
+            row.reaction_limit,
+            row.freshness,
+            row.freshness_limit,
+            chain_verdict(row),
+            row.conventional,
+            row.followed,
+            "safe" if row.safe_within else "NOT safe",
+        ]
         for row in analysis.chains
-    ]  # fmt: skip
-    columns = ["path", "tasks", "E (eq. 5, 6)", "limit", "F (eq. 7)", "limit", "", "T + R",
-               "with phases", "both limits"]  # fmt: skip
+    ]
+    columns = [
+        "path",
+        "tasks",
+        "E (eq. 5, 6)",
+        "limit",
+        "F (eq. 7)",
+        "limit",
+        "",
+        "T + R",
+        "with phases",
+        "both limits",
+    ]
     out.print(table("Paths from sensor to actuator, us", columns, rows, 2))
     out.print(NOTE_CHAINS)
 
@@ -247,12 +317,20 @@ def plot_utilisation(analysis: Analysis, path: Path) -> None:
     for load in analysis.classes:
         axes.barh(["utilisation"], [load.utilisation], left=left, label=load.name)
         left += load.utilisation
-    for value, label in ((0.40, "target"), (0.65, "alarm"), (analysis.total.liu_layland, "eq. 8"),
-                         (1.0, "eq. 11")):  # fmt: skip
+    for value, label in (
+        (0.40, "target"),
+        (0.65, "alarm"),
+        (analysis.total.liu_layland, "eq. 8"),
+        (1.0, "eq. 11"),
+    ):
         axes.axvline(value, color="black", linewidth=0.8, linestyle="--")
         axes.text(value, 0.55, label, rotation=90, ha="right", va="bottom", fontsize=8)
-    axes.set(xlim=(0.0, max(1.05, 1.05 * left)), ylim=(-0.5, 1.0), xlabel="C / T, summed by class",
-             title=f"{analysis.name}: utilisation {left:.4f}")  # fmt: skip
+    axes.set(
+        xlim=(0.0, max(1.05, 1.05 * left)),
+        ylim=(-0.5, 1.0),
+        xlabel="C / T, summed by class",
+        title=f"{analysis.name}: utilisation {left:.4f}",
+    )
     axes.set_yticks([])
     grid_along(axes, "x")
     figure.legend(loc="outside lower center", ncols=5, fontsize=8)
@@ -274,14 +352,26 @@ def plot_responses(analysis: Analysis, path: Path) -> None:
     axes = figure.add_subplot()
     places = range(len(rows))
     late = [bound is None or bound > deadline for _, bound, deadline in rows]
-    axes.barh(places, [bound or deadline for _, bound, deadline in rows],
-              color=[RED if wrong else BLUE for wrong in late])  # fmt: skip
-    axes.scatter([deadline for _, _, deadline in rows], places, marker="|", s=80, color="black",
-                 label="deadline")  # fmt: skip
+    axes.barh(
+        places,
+        [bound or deadline for _, bound, deadline in rows],
+        color=[RED if wrong else BLUE for wrong in late],
+    )
+    axes.scatter(
+        [deadline for _, _, deadline in rows],
+        places,
+        marker="|",
+        s=80,
+        color="black",
+        label="deadline",
+    )
     axes.set_yticks(places, [name for name, _, _ in rows], fontsize=8)
     axes.invert_yaxis()
-    axes.set(xscale="log", xlabel="time from the release, us",
-             title=f"{analysis.name}: bound of the response time")  # fmt: skip
+    axes.set(
+        xscale="log",
+        xlabel="time from the release, us",
+        title=f"{analysis.name}: bound of the response time",
+    )
     grid_along(axes, "x")
     figure.legend(loc="outside lower right")
     write_svg(path, figure)

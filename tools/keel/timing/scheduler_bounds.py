@@ -399,6 +399,5 @@ def path_bound(tasks: TaskSet, chain: Chain, found: Bounds) -> PathBound:
         for task in path
     ]
     return PathBound(
-        conventional(path, in_time),
-        followed(path, last) if last is not None else None,
+        conventional(path, in_time), followed(path, last) if last is not None else None
     )

@@ -144,10 +144,17 @@ def print_synthesis(found: Synthesis, out: Console) -> None:
     columns = ["", "task", "C", "T given", "T found", "U, %"]
     out.print(table("Periods that change, us", columns, rows, 2))
     chains: list[list[Cell]] = [
-        [row.name, row.reaction, row.conventional, row.reaction_limit, row.freshness,
-         row.freshness_limit, "advice" if row.advisory else ""]
+        [
+            row.name,
+            row.reaction,
+            row.conventional,
+            row.reaction_limit,
+            row.freshness,
+            row.freshness_limit,
+            "advice" if row.advisory else "",
+        ]
         for row in found.analysis.chains
-    ]  # fmt: skip
+    ]
     out.print(
         table("Paths with these periods, us", ["path", "E", "limit", "F", "limit", ""], chains)
     )

@@ -96,8 +96,15 @@ class RawTask(Table):
         """The task, which is the one of that number."""
         names = {value: name for name, value in CLASSES.items()}
         class_name = self.class_ or names[self.priority or PRIORITY_MAX]
-        return Task(self.name, self.label or f"#{number}", class_name, self.period_us,
-                    self.budget_us, self.phase_us, self.sigma_percent)  # fmt: skip
+        return Task(
+            self.name,
+            self.label or f"#{number}",
+            class_name,
+            self.period_us,
+            self.budget_us,
+            self.phase_us,
+            self.sigma_percent,
+        )
 
 
 class Chain(Table):
@@ -186,9 +193,12 @@ def wrong_count(raw: RawTaskSet) -> Iterator[Mistake]:
     """More tasks than the queue holds."""
     capacity = raw.scheduler.capacity
     if len(raw.task) > capacity:
-        yield ("task", capacity, "name"), (
-            f"expected at most {capacity} tasks, which the queue holds; `capacity` of [scheduler] "
-            "is for builds with another KEEL_QUEUE_CAPACITY"
+        yield (
+            ("task", capacity, "name"),
+            (
+                f"expected at most {capacity} tasks, which the queue holds; `capacity` of [scheduler] "
+                "is for builds with another KEEL_QUEUE_CAPACITY"
+            ),
         )
 
 

@@ -91,8 +91,9 @@ def jeffay(tasks: Sequence[Task]) -> Jeffay:
 # --- Non-preemptive fixed priorities -------------------------------------------------------------
 
 
-def fixed_point(start: int, limit: int, step: list[tuple[int, int]], constant: int,
-                closed: bool) -> int | None:  # fmt: skip
+def fixed_point(
+    start: int, limit: int, step: list[tuple[int, int]], constant: int, closed: bool
+) -> int | None:
     """The least t = constant + sum of n(t) C over (T, C); None beyond the limit.
 
     n counts the releases before t, or (closed) those up to t.

@@ -205,10 +205,12 @@ def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
         trace = join(root)
         for orphan in sorted(trace.orphans):
             print(orphan)
-        print(f"traced {len(trace.requirements)} requirements: {trace.clauses} clauses, "
-              f"{trace.harnesses} harnesses, {trace.tests} tests, "
-                  f"{len(trace.functions)} functions, "
-              f"{len(trace.orphans)} orphans")  # fmt: skip
+        print(
+            f"traced {len(trace.requirements)} requirements: {trace.clauses} clauses, "
+            f"{trace.harnesses} harnesses, {trace.tests} tests, "
+            f"{len(trace.functions)} functions, "
+            f"{len(trace.orphans)} orphans"
+        )
         return 1 if trace.orphans or not trace.requirements else 0
 
     return program("trace", work)

@@ -64,13 +64,19 @@ def _of_file(root: Path, path: Path, labels: dict[str, tuple[str, ...]]) -> list
     bodies = {one.name: csource.body_of(text, one.name) for one in csource.defined(text)}
     found = {
         one.name: Function(
-            one.name, where, one.line, helper=one.static and path.suffix == ".c",
+            one.name,
+            where,
+            one.line,
+            helper=one.static and path.suffix == ".c",
             requirements=labels.get(one.name, ()),
-            callers=tuple(name for name, body in bodies.items()
-                          if name != one.name and csource.calls(body, one.name)),
+            callers=tuple(
+                name
+                for name, body in bodies.items()
+                if name != one.name and csource.calls(body, one.name)
+            ),
         )
         for one in csource.defined(text)
-    }  # fmt: skip
+    }
     for _ in found:  # A chain of helpers is no longer than there are functions.
         found = {name: _by_callers(one, found) for name, one in found.items()}
     return list(found.values())

@@ -49,23 +49,30 @@ activity "Tests" {
 }
 """
 SCHEMAS = {
-    "high": ("lobster-req-trace", 4), "low": ("lobster-req-trace", 4),
-    "functions": ("lobster-imp-trace", 3), "proofs": ("lobster-act-trace", 3),
+    "high": ("lobster-req-trace", 4),
+    "low": ("lobster-req-trace", 4),
+    "functions": ("lobster-imp-trace", 3),
+    "proofs": ("lobster-act-trace", 3),
     "tests": ("lobster-act-trace", 3),
-}  # fmt: skip
+}
 REPORT, PAGE = "report.lobster", "lobster.html"
 
 
 def _item(
     tag: str, name: str, refs: Iterable[str], file: str = "", line: int = 0
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """What all of LOBSTER's items have."""
     where = {"kind": "file", "file": file, "line": line or None, "column": None}
     return {
-        "tag": tag, "name": name, "location": where if file else {"kind": "void"},
-        "messages": [], "just_up": [], "just_down": [], "just_global": [],
+        "tag": tag,
+        "name": name,
+        "location": where if file else {"kind": "void"},
+        "messages": [],
+        "just_up": [],
+        "just_down": [],
+        "just_global": [],
         "refs": [f"req {uid}" for uid in refs],
-    }  # fmt: skip
+    }
 
 
 def requirement_item(one: Requirement) -> dict[str, Any]:
@@ -84,7 +91,9 @@ def function_item(one: Function) -> dict[str, Any]:
     """A function."""
     tag = f"c {one.file}:{one.name}"
     return _item(tag, one.name, one.requirements, one.file, one.line) | {
-        "language": "C", "kind": "static function" if one.helper else "function"}  # fmt: skip
+        "language": "C",
+        "kind": "static function" if one.helper else "function",
+    }
 
 
 def activity_item(one: Verdict, uids: Iterable[str]) -> dict[str, Any]:
@@ -111,15 +120,22 @@ def of_tests(known: Mapping[str, Requirement], verdicts: Verdicts) -> Iterator[d
             yield activity_item(verdict, named[verdict.key])
 
 
-def items(known: Mapping[str, Requirement], functions: Sequence[Function],
-          verdicts: Verdicts) -> dict[str, list[dict[str, Any]]]:  # fmt: skip
+def items(
+    known: Mapping[str, Requirement], functions: Sequence[Function], verdicts: Verdicts
+) -> dict[str, list[dict[str, Any]]]:
     """What LOBSTER reads, by file."""
     proofs = [one for one in verdicts.every if one.by != TEST]
-    told = {one.name: [uid for uid in one.requirements if uid in known and modelled(known[uid])]
-            for one in functions if not one.helper}  # fmt: skip
-    stated = {one.key: dict.fromkeys([*one.uids, *(told.get(one.function, ())
-                                                   if one.by == HARNESS else ())])
-              for one in proofs}  # fmt: skip
+    told = {
+        one.name: [uid for uid in one.requirements if uid in known and modelled(known[uid])]
+        for one in functions
+        if not one.helper
+    }
+    stated = {
+        one.key: dict.fromkeys(
+            [*one.uids, *(told.get(one.function, ()) if one.by == HARNESS else ())]
+        )
+        for one in proofs
+    }
     return {
         "high": [requirement_item(one) for one in known.values() if one.high],
         "low": [requirement_item(one) for one in known.values() if not one.high],
@@ -132,8 +148,9 @@ def items(known: Mapping[str, Requirement], functions: Sequence[Function],
 def _lobster(packages: str, tool: str, folder: Path, *arguments: str) -> Ended:
     """Run one of LOBSTER's programs in a folder."""
     start = f"import sys; from lobster.tools.core.{tool}.{tool} import main; sys.exit(main())"
-    return run([sys.executable, "-c", start, *arguments], cwd=folder,
-               environment={"PYTHONPATH": packages})  # fmt: skip
+    return run(
+        [sys.executable, "-c", start, *arguments], cwd=folder, environment={"PYTHONPATH": packages}
+    )
 
 
 def gate(folder: Path, packages: str, levels: Mapping[str, list[dict[str, Any]]]) -> list[str]:
@@ -158,6 +175,7 @@ def complaints(report: str) -> list[str]:
     do not name the items."""
     return [
         f"LOBSTER: {item['tag']}: {'; '.join(item['messages']) or item['tracing_status']}"
-        for level in json.loads(report)["levels"] for item in level["items"]
+        for level in json.loads(report)["levels"]
+        for item in level["items"]
         if item["tracing_status"] not in ("OK", "JUSTIFIED")
-    ]  # fmt: skip
+    ]

@@ -68,8 +68,9 @@ def read_requirements(root: Path) -> list[Requirement]:
     found = []
     for path in sorted((root / FOLDER).glob("*.sdoc")):
         for entry in path.read_text(encoding="utf-8").split("\n[REQUIREMENT]\n")[1:]:
-            text = {match[1]: (match[2] or match[3] or "").strip()
-                    for match in FIELD.finditer(entry)}  # fmt: skip
+            text = {
+                match[1]: (match[2] or match[3] or "").strip() for match in FIELD.finditer(entry)
+            }
             found.append(Requirement(text["UID"], path.stem, text, PARENT.findall(entry)))
     return found
 

@@ -53,10 +53,20 @@ def export(root: Path, folder: Path, packages: str) -> dict[str, Path]:
         shutil.copy(path, source)
     write_text(source / "strictdoc_config.py", CONFIG)
     ended = run(
-        [sys.executable, "-c", START, "export", str(source), "--formats=html,reqif-sdoc",
-         "--no-parallelization", f"--output-dir={target}"],
-        TIMEOUT_S, cwd=folder, environment={"PYTHONPATH": packages, "PYTHONHASHSEED": "0"},
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-c",
+            START,
+            "export",
+            str(source),
+            "--formats=html,reqif-sdoc",
+            "--no-parallelization",
+            f"--output-dir={target}",
+        ],
+        TIMEOUT_S,
+        cwd=folder,
+        environment={"PYTHONPATH": packages, "PYTHONHASHSEED": "0"},
+    )
     if not ended.good:
         raise ToolError(f"StrictDoc does not read {FOLDER}: {reason(ended.output)}")
     for path in (target / "html").rglob("*.html"):
@@ -67,9 +77,10 @@ def export(root: Path, folder: Path, packages: str) -> dict[str, Path]:
     pages = [path for path in sorted((target / "html").rglob("*")) if path.is_file()]
     found = {path.relative_to(target / "html"): path for path in pages}
     return {"keel.reqif": reqif} | {
-        f"strictdoc/{name.as_posix()}": path for name, path in found.items()
+        f"strictdoc/{name.as_posix()}": path
+        for name, path in found.items()
         if not set(name.parts) & set(UNUSED)
-    }  # fmt: skip
+    }
 
 
 def reason(output: str) -> str:

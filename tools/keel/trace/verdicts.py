@@ -45,14 +45,16 @@ def of_proofs(report: Report) -> Iterator[Verdict]:
         for goal in found["wp"]["goal_list"]:
             name, status = goal["name"], goal["status"]
             function = goal.get("target", "").rpartition(":")[2]
-            yield Verdict(f"goal:{unit}/{name}", WP, status == "Valid", status, uids_in(name), unit,
-                          function)  # fmt: skip
+            yield Verdict(
+                f"goal:{unit}/{name}", WP, status == "Valid", status, uids_in(name), unit, function
+            )
         for name, harness in found["cbmc"]["harnesses"].items():
             yield from _of_harness(unit, name, harness)
         for goal in found["gappa"]["goal_list"]:
             name, status = goal["name"], goal["status"]
-            yield Verdict(f"goal:{unit}/{name}", GAPPA, status == "Valid", status, uids_in(name),
-                          unit)  # fmt: skip
+            yield Verdict(
+                f"goal:{unit}/{name}", GAPPA, status == "Valid", status, uids_in(name), unit
+            )
 
 
 def _of_harness(unit: str, name: str, harness: Report) -> Iterator[Verdict]:
@@ -63,14 +65,20 @@ def _of_harness(unit: str, name: str, harness: Report) -> Iterator[Verdict]:
         said.setdefault(assertion["description"].partition(":")[0], []).append(assertion["status"])
     for label, statuses in said.items():
         yield Verdict(
-            f"goal:{unit}/{name}/{label}", CBMC, set(statuses) == {"SUCCESS"},
-            ", ".join(dict.fromkeys(statuses)), uids_in(label), unit, function,
-        )  # fmt: skip
+            f"goal:{unit}/{name}/{label}",
+            CBMC,
+            set(statuses) == {"SUCCESS"},
+            ", ".join(dict.fromkeys(statuses)),
+            uids_in(label),
+            unit,
+            function,
+        )
     proved = f"{harness['proved']} of {harness['properties']} proved"
     good = bool(harness["sound"]) and harness["proved"] == harness["properties"] > 0
     sound = "" if harness["sound"] else ", not sound"
-    yield Verdict(f"harness:{unit}/{name}", HARNESS, good, proved + sound, uids_in(*said), unit,
-                  function)  # fmt: skip
+    yield Verdict(
+        f"harness:{unit}/{name}", HARNESS, good, proved + sound, uids_in(*said), unit, function
+    )
 
 
 def of_tests(*reports: Report) -> list[Verdict]:
@@ -134,8 +142,12 @@ class Verdicts:
         own = list(self.by_uid.get(one.uid, ()))
         own += [verdict for name in one.listed_tests for verdict in self.listed(name)]
         names = [function.name for function in self.bearing(one.uid)]
-        own += [verdict for name in names for verdict in self.by_function.get(name, ())
-                if verdict.by == HARNESS]  # fmt: skip
+        own += [
+            verdict
+            for name in names
+            for verdict in self.by_function.get(name, ())
+            if verdict.by == HARNESS
+        ]
         return list({verdict.key: verdict for verdict in own}.values())
 
 
@@ -157,8 +169,9 @@ def state_of(one: Requirement, own: Iterable[Verdict]) -> str:
     return "told" if "theorem" in one.verification else "good"
 
 
-def states(known: Mapping[str, Requirement], verdicts: Verdicts,
-           below: Mapping[str, list[Requirement]]) -> dict[str, str]:  # fmt: skip
+def states(
+    known: Mapping[str, Requirement], verdicts: Verdicts, below: Mapping[str, list[Requirement]]
+) -> dict[str, str]:
     """How each requirement stands; a high-level one as the worst below it and of its own tests."""
     found = {uid: state_of(one, verdicts.of(one)) for uid, one in known.items() if not one.high}
     for uid, one in known.items():

@@ -90,15 +90,21 @@ def read_bounds(harness: Harness) -> Bounded:
     own = [text for text in assumed if not CONTRACT.match(text) and NUMBER.search(text)]
     case = harness.name.removesuffix("_harness").partition("__")[2]
     return Bounded(
-        harness, prose_of(harness.path), tuple(sizes), tuple(dict.fromkeys([*drawn, *own])),
+        harness,
+        prose_of(harness.path),
+        tuple(sizes),
+        tuple(dict.fromkeys([*drawn, *own])),
         case in CHOSEN,
-    )  # fmt: skip
+    )
 
 
 def read_all(root: Path) -> list[Bounded]:
     """The harnesses of all units."""
-    return [read_bounds(read_harness(unit, path))
-            for unit in find_units(root).values() for path in unit.harnesses]  # fmt: skip
+    return [
+        read_bounds(read_harness(unit, path))
+        for unit in find_units(root).values()
+        for path in unit.harnesses
+    ]
 
 
 def cover_of(one: Bounded, every: Iterable[Bounded], report: Report) -> list[str]:
@@ -109,8 +115,11 @@ def cover_of(one: Bounded, every: Iterable[Bounded], report: Report) -> list[str
         goals = [goal for goal in unit["wp"]["goal_list"] if goal["target"] == function]
         if goals and function not in unit["wp"]["not_by_wp"]:
             found.append(f"WP, {len(goals)} goals without bounds")
-    found += [f"harness:{other.id}" for other in every
-              if other.harness.function == function and not other.bounds]  # fmt: skip
+    found += [
+        f"harness:{other.id}"
+        for other in every
+        if other.harness.function == function and not other.bounds
+    ]
     return found
 
 
@@ -137,8 +146,11 @@ def problems(harnesses: Iterable[Bounded], report: Report) -> Iterator[str]:
 def items(harnesses: Iterable[Bounded], report: Report) -> Iterator[Item]:
     """Each harness, with its bounds and the numbers of its checks."""
     every = list(harnesses)
-    public = {outcome["function"] for unit in report.get("units", {}).values()
-              for outcome in unit["determined"]}  # fmt: skip
+    public = {
+        outcome["function"]
+        for unit in report.get("units", {}).values()
+        for outcome in unit["determined"]
+    }
     for one in every:
         unit = report.get("units", {}).get(one.unit, {})
         result = unit.get("cbmc", {}).get("harnesses", {}).get(one.harness.name)
@@ -146,8 +158,9 @@ def items(harnesses: Iterable[Bounded], report: Report) -> Iterator[Item]:
             "bounded": "; ".join(one.bounds) or UNBOUNDED,
             "loops are unwound": one.unwinding,
             "stand-ins by contract": " ".join(one.harness.replaces) or "none",
-            "covers": " ".join(one.harness.covers), "file": one.place,
-        }  # fmt: skip
+            "covers": " ".join(one.harness.covers),
+            "file": one.place,
+        }
         if result:
             labelled = len(result["assertions"])
             facts |= {
@@ -160,9 +173,14 @@ def items(harnesses: Iterable[Bounded], report: Report) -> Iterator[Item]:
         own = [f"function:{function}"] if function in public else []
         state: State = ("good" if result["sound"] else "bad") if result else "open"
         yield Item(
-            kind="harness", id=one.id, title=one.harness.name, text=one.reason, state=state,
-            facts=facts, links=(f"unit:{one.unit}", *own),
-        )  # fmt: skip
+            kind="harness",
+            id=one.id,
+            title=one.harness.name,
+            text=one.reason,
+            state=state,
+            facts=facts,
+            links=(f"unit:{one.unit}", *own),
+        )
 
 
 def table(harnesses: Iterable[Bounded], report: Report) -> Table:
@@ -170,18 +188,27 @@ def table(harnesses: Iterable[Bounded], report: Report) -> Table:
     every = list(harnesses)
     rows = [
         (
-            f"harness:{one.id}", "; ".join(one.bounds) or UNBOUNDED, one.unwinding,
-            "; ".join(one.left_out), " ".join(one.reason.split()),
+            f"harness:{one.id}",
+            "; ".join(one.bounds) or UNBOUNDED,
+            one.unwinding,
+            "; ".join(one.left_out),
+            " ".join(one.reason.split()),
             "; ".join(cover_of(one, every, report)) if one.bounds else "",
         )
         for one in every
-    ]  # fmt: skip
+    ]
     return Table(
         title="Harnesses and their bounds",
-        columns=("harness", "bounded", "loops unwound", "leaves out", "reason at its head",
-                 "covered by"),
+        columns=(
+            "harness",
+            "bounded",
+            "loops unwound",
+            "leaves out",
+            "reason at its head",
+            "covered by",
+        ),
         rows=tuple(rows),
         note="A function's precondition and the contracts of its stand-ins are no bounds: the"
-             " first is the caller's to keep, the others are proved by harnesses of their own."
-             " Where nothing is named as cover, what is left out is not proved by this package.",
-    )  # fmt: skip
+        " first is the caller's to keep, the others are proved by harnesses of their own."
+        " Where nothing is named as cover, what is left out is not proved by this package.",
+    )

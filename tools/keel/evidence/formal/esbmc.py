@@ -20,8 +20,14 @@ from keel.c.project import closure, shown
 from keel.judge.harness import Harness
 from keel.judge.wrong_bodies import WrongBody
 
-CHECKS = ("--32", "--z3", "--overflow-check", "--unsigned-overflow-check",
-          "-D__CPROVER_assume=__ESBMC_assume", "-D__CPROVER_assert=__ESBMC_assert")  # fmt: skip
+CHECKS = (
+    "--32",
+    "--z3",
+    "--overflow-check",
+    "--unsigned-overflow-check",
+    "-D__CPROVER_assume=__ESBMC_assume",
+    "-D__CPROVER_assert=__ESBMC_assert",
+)
 PROVED, REFUTED = "proved", "refuted"
 PASSED = re.compile(r"^ +PASSED +\[\S+\] +line +\d+ +(\w+):", re.MULTILINE)
 LABELLED = re.compile(r"\b[A-Z]{3,4}_\d{3}\w*:")
@@ -47,8 +53,9 @@ def texts_of(question: Question) -> dict[str, str]:
     files = closure(root, [question.harness.path, *question.harness.sources])
     texts = {shown(path, root): csource.essence(path.read_text("utf-8")) for path in files}
     wrong = question.wrong
-    return texts | ({"wrong": csource.essence(wrong.text()), "expect": str(wrong.expect)}
-                    if wrong else {})  # fmt: skip
+    return texts | (
+        {"wrong": csource.essence(wrong.text()), "expect": str(wrong.expect)} if wrong else {}
+    )
 
 
 class Esbmc:
@@ -78,10 +85,19 @@ class Esbmc:
             # What a source includes beside it is found beside the original.
             include += [f"-I{path.parent}" for path in harness.sources]
         return [
-            *self._program, str(harness.path), *map(str, sources), "--function", harness.name,
-            "--nostdinc", *include, *self._include, *defines, *CHECKS,
-            "--unwind", str(question.unwind),
-        ]  # fmt: skip
+            *self._program,
+            str(harness.path),
+            *map(str, sources),
+            "--function",
+            harness.name,
+            "--nostdinc",
+            *include,
+            *self._include,
+            *defines,
+            *CHECKS,
+            "--unwind",
+            str(question.unwind),
+        ]
 
     def ask(self, question: Question) -> dict[str, object]:
         """What ESBMC says of a harness, and of the wrong body that it must refute, if any."""
@@ -107,8 +123,9 @@ def judged(output: str, expected: Sequence[str]) -> tuple[str, int]:
         return f"does not know {bodyless[1]}", 0
     verdict = VERDICT.search(output)
     if not verdict:
-        error = next((line for line in output.splitlines() if "error" in line.lower()),
-                     "no verdict")  # fmt: skip
+        error = next(
+            (line for line in output.splitlines() if "error" in line.lower()), "no verdict"
+        )
         return error.strip(), 0
     if verdict[1] == "SUCCESSFUL":
         count = COUNT.search(output)

@@ -52,10 +52,13 @@ def wp_items(name: str, unit: Report) -> Iterator[Item]:
             facts["theorem"] = f"proofs/{name}/{theorem}.c"
         links = [*own, *_required(goal["name"])]
         yield Item(
-            kind="goal", id=f"{name}/{goal['name']}", title=goal["name"],
+            kind="goal",
+            id=f"{name}/{goal['name']}",
+            title=goal["name"],
             state="good" if goal["status"] == "Valid" else "bad",
-            facts={**facts, "verdict": goal["status"]}, links=tuple(links),
-        )  # fmt: skip
+            facts={**facts, "verdict": goal["status"]},
+            links=tuple(links),
+        )
 
 
 def assertions_of(harness: Report) -> dict[str, list[Mapping[str, str]]]:
@@ -73,29 +76,36 @@ def cbmc_items(name: str, unit: Report) -> Iterator[Item]:
             good = result["sound"] and all(one["status"] == "SUCCESS" for one in places)
             links = [f"harness:{name}/{harness}", *_required(label)]
             yield Item(
-                kind="goal", id=f"{name}/{harness}/{label}", title=f"{harness}: {label}",
+                kind="goal",
+                id=f"{name}/{harness}/{label}",
+                title=f"{harness}: {label}",
                 text="\n".join(dict.fromkeys(one["description"] for one in places)),
                 state="good" if good else "bad",
                 facts={
-                    "engine": "CBMC", "places": str(len(places)),
+                    "engine": "CBMC",
+                    "places": str(len(places)),
                     "verdict": ", ".join(dict.fromkeys(one["status"] for one in places)),
                 },
                 links=tuple(links),
-            )  # fmt: skip
+            )
 
 
 def gappa_items(name: str, unit: Report) -> Iterator[Item]:
     """Gappa's bounds of rounding errors."""
     for goal in unit["gappa"]["goal_list"]:
         yield Item(
-            kind="goal", id=f"{name}/{goal['name']}", title=goal["name"],
+            kind="goal",
+            id=f"{name}/{goal['name']}",
+            title=goal["name"],
             state="good" if goal["status"] == "Valid" else "bad",
             facts={
-                "engine": "Gappa", "verdict": goal["status"], "bound": goal["bound"],
+                "engine": "Gappa",
+                "verdict": goal["status"],
+                "bound": goal["bound"],
                 "enclosure found": goal["enclosure"],
             },
             links=(f"unit:{name}", *_required(goal["name"])),
-        )  # fmt: skip
+        )
 
 
 def items(report: Report) -> list[Item]:
@@ -108,8 +118,11 @@ def items(report: Report) -> list[Item]:
 
 def measured(report: Report) -> dict[str, float]:
     """How long each job took: WP on a function, CBMC on a harness, Gappa on a file."""
-    return {f"{name}/{job}": seconds for name, unit in report.get("units", {}).items()
-            for job, seconds in unit["seconds"].items()}  # fmt: skip
+    return {
+        f"{name}/{job}": seconds
+        for name, unit in report.get("units", {}).items()
+        for job, seconds in unit["seconds"].items()
+    }
 
 
 def problems(report: Report, goals: Sequence[Item]) -> list[str]:
@@ -119,8 +132,11 @@ def problems(report: Report, goals: Sequence[Item]) -> list[str]:
         found.append("build/prove/report.json: speaks of a part of the proofs alone")
     if report and report.get("verdict") != "proved" and not found:
         found.append(f"build/prove/report.json: the verdict is {report.get('verdict')!r}")
-    found += [f"goal {goal.id}: not proved, {goal.facts['engine']} says {goal.facts['verdict']}"
-              for goal in goals if goal.state == "bad"]  # fmt: skip
+    found += [
+        f"goal {goal.id}: not proved, {goal.facts['engine']} says {goal.facts['verdict']}"
+        for goal in goals
+        if goal.state == "bad"
+    ]
     return found
 
 
@@ -144,7 +160,9 @@ def unit_items(report: Report) -> Iterator[Item]:
     for name, unit in report.get("units", {}).items():
         wp, cbmc, gappa = unit["wp"], unit["cbmc"], unit["gappa"]
         yield Item(
-            kind="unit", id=name, title=name,
+            kind="unit",
+            id=name,
+            title=name,
             facts={
                 "WP goals": f"{wp['proved']} of {wp['goals']} proved",
                 "smoke tests": str(wp["smoke_tests"]),
@@ -152,7 +170,7 @@ def unit_items(report: Report) -> Iterator[Item]:
                 "harnesses": str(len(cbmc["harnesses"])),
                 "Gappa bounds": f"{gappa['proved']} of {gappa['goals']} proved",
             },
-        )  # fmt: skip
+        )
         yield from _function_items(name, unit)
 
 
@@ -163,6 +181,9 @@ def _function_items(name: str, unit: Report) -> Iterator[Item]:
         if outcome["function"] in unit["wp"]["not_by_wp"]:
             facts["postconditions by CBMC alone"] = unit["wp"]["not_by_wp"][outcome["function"]]
         yield Item(
-            kind="function", id=outcome["function"], title=outcome["function"], facts=facts,
+            kind="function",
+            id=outcome["function"],
+            title=outcome["function"],
+            facts=facts,
             links=(f"unit:{name}", *(f"harness:{name}/{one}" for one in harnesses)),
-        )  # fmt: skip
+        )

@@ -55,11 +55,17 @@ class Assumption:
     def item(self) -> Item:
         """As an item of the package."""
         return Item(
-            kind="assumption", id=self.id, title=f"{self.id}: {self.assumption}",
+            kind="assumption",
+            id=self.id,
+            title=f"{self.id}: {self.assumption}",
             text=self.assumption,
-            facts={"owner": self.owner, "ensured by": self.ensured_by, "stated in": self.stated_in,
-                   "how it is verified": self.verified},
-        )  # fmt: skip
+            facts={
+                "owner": self.owner,
+                "ensured by": self.ensured_by,
+                "stated in": self.stated_in,
+                "how it is verified": self.verified,
+            },
+        )
 
 
 def tables_of(text: str) -> Iterator[MarkdownTable]:
@@ -125,11 +131,14 @@ def tables(text: str) -> list[Table]:
 
 def ledger_table(entries: Sequence[Assumption]) -> Table:
     """The whole ledger in one table."""
-    rows = tuple((f"assumption:{one.id}", one.assumption, one.owner, one.ensured_by, one.verified)
-                 for one in entries)  # fmt: skip
+    rows = tuple(
+        (f"assumption:{one.id}", one.assumption, one.owner, one.ensured_by, one.verified)
+        for one in entries
+    )
     return Table(
         title="Ledger of assumptions",
-        columns=("id", "assumption", "owner", "ensured by", "how it is verified"), rows=rows,
+        columns=("id", "assumption", "owner", "ensured by", "how it is verified"),
+        rows=rows,
         note="Owner: who answers for it. An assumption that is verified by review holds only where"
-             " somebody has made that review: this package cannot show it.",
-    )  # fmt: skip
+        " somebody has made that review: this package cannot show it.",
+    )

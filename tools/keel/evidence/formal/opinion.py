@@ -70,13 +70,16 @@ def reasons(opinions: Opinions, harnesses: Sequence[Bounded]) -> dict[str, str]:
     """Why ESBMC is not asked about a harness, of those that it is not asked about."""
     asked = {one.harness for one in opinions.ask}
     given = {name: " ".join(one.reason.split()) for one in opinions.cannot for name in one.harness}
-    return {one.id: given.get(one.id) or why_not(one.harness)
-            for one in harnesses if one.id not in asked}  # fmt: skip
+    return {
+        one.id: given.get(one.id) or why_not(one.harness)
+        for one in harnesses
+        if one.id not in asked
+    }
 
 
 def file_problems(
     opinions: Opinions, harnesses: Sequence[Bounded], given: Mapping[str, str]
-) -> Iterator[str]:  # fmt: skip
+) -> Iterator[str]:
     """A harness that is neither asked nor excused, and one that does not exist."""
     known = {one.id for one in harnesses}
     asked = {one.harness for one in opinions.ask}
@@ -104,8 +107,15 @@ def questions(opinions: Opinions, harnesses: Sequence[Bounded]) -> list[Question
         if one.harness not in known:
             raise ToolError(f"{FILE}: there is no harness {one.harness}")
         harness = known[one.harness]
-        found.append(Question(harness, one.unwind, narrowed(harness, one.defines), one.seconds,
-                              _first_wrong(harness)))  # fmt: skip
+        found.append(
+            Question(
+                harness,
+                one.unwind,
+                narrowed(harness, one.defines),
+                one.seconds,
+                _first_wrong(harness),
+            )
+        )
     return found
 
 
@@ -116,7 +126,7 @@ def good(answer: Report) -> bool:
 
 def problems(
     report: Report, opinions: Opinions, harnesses: Sequence[Bounded], given: Mapping[str, str]
-) -> Iterator[str]:  # fmt: skip
+) -> Iterator[str]:
     """What is wrong with the file, a harness without an answer, and one ESBMC does not agree on."""
     yield from file_problems(opinions, harnesses, given)
     answers = report.get("harnesses", {})
@@ -145,18 +155,32 @@ def table(report: Report, harnesses: Sequence[Bounded], given: Mapping[str, str]
     for one in harnesses:
         answer = answers.get(one.id)
         if answer:
-            rows.append((f"harness:{one.id}", answer["verdict"], str(answer["properties"]),
-                         answer["bounds"], answer["wrong_body"], answer["wrong"] or "none names it",
-                         ""))  # fmt: skip
+            rows.append(
+                (
+                    f"harness:{one.id}",
+                    answer["verdict"],
+                    str(answer["properties"]),
+                    answer["bounds"],
+                    answer["wrong_body"],
+                    answer["wrong"] or "none names it",
+                    "",
+                )
+            )
         else:
-            rows.append((f"harness:{one.id}", "not asked", "", "", "", "",
-                         given.get(one.id, "")))  # fmt: skip
+            rows.append((f"harness:{one.id}", "not asked", "", "", "", "", given.get(one.id, "")))
     return Shown(
         title="A third opinion: ESBMC",
-        columns=("harness", "verdict", "properties", "unwinding and definitions", "wrong body",
-                 "verdict on it", "why not asked"),
+        columns=(
+            "harness",
+            "verdict",
+            "properties",
+            "unwinding and definitions",
+            "wrong body",
+            "verdict on it",
+            "why not asked",
+        ),
         rows=tuple(rows),
         note="ESBMC's capacities are often smaller than CBMC's, and its processor is a 32-bit x86."
-             " Its front end began as CBMC's, so it is a third opinion rather than a third proof."
-             f" {len(answers)} of {len(harnesses)} harnesses were asked.",
-    )  # fmt: skip
+        " Its front end began as CBMC's, so it is a third opinion rather than a third proof."
+        f" {len(answers)} of {len(harnesses)} harnesses were asked.",
+    )

@@ -112,8 +112,10 @@ def problems(reviewed: Sequence[Reviewed]) -> Iterator[str]:
     """The signatures that are stale."""
     for one in reviewed:
         for review in one.stale:
-            yield (f"{FILE}: {one.unit}: the review by {review.person} on {review.date} is stale:"
-                   f" what it was of has changed")  # fmt: skip
+            yield (
+                f"{FILE}: {one.unit}: the review by {review.person} on {review.date} is stale:"
+                f" what it was of has changed"
+            )
 
 
 def table(reviewed: Sequence[Reviewed]) -> Shown:
@@ -126,7 +128,9 @@ def table(reviewed: Sequence[Reviewed]) -> Shown:
         if not one.reviews:
             rows.append((f"unit:{one.unit}", NOT_REVIEWED, "", "", ""))
     return Shown(
-        title="Reviews", columns=("unit", "state", "person", "date", "remarks"), rows=tuple(rows),
+        title="Reviews",
+        columns=("unit", "state", "person", "date", "remarks"),
+        rows=tuple(rows),
         note="Whether a clause says what its requirement says is for people to judge. Where nobody"
-             " has signed, nobody has been recorded to have judged it.",
-    )  # fmt: skip
+        " has signed, nobody has been recorded to have judged it.",
+    )

@@ -87,19 +87,29 @@ def table(theorems: Sequence[Theorem], goals: Sequence[Item]) -> Shown:
     counts, _ = proved(goals)
     rows = [
         (
-            theorem.id, " ".join(theorem.statement.split()), f"requirement:{one}",
-            _by(counts.get(one, Counter())), " ".join(theorem.alone.get(one, "").split()),
+            theorem.id,
+            " ".join(theorem.statement.split()),
+            f"requirement:{one}",
+            _by(counts.get(one, Counter())),
+            " ".join(theorem.alone.get(one, "").split()),
             " ".join(f"assumption:{one}" for one in theorem.assuming),
             " ".join(theorem.by_hand.split()),
         )
         for theorem in theorems
         for one in theorem.rests_on
-    ]  # fmt: skip
+    ]
     return Shown(
         title="Headline theorems",
-        columns=("theorem", "statement", "rests on", "goals proved by", "why one engine alone",
-                 "assuming besides A-01 to A-06, A-26 to A-30", "composed by hand"),
+        columns=(
+            "theorem",
+            "statement",
+            "rests on",
+            "goals proved by",
+            "why one engine alone",
+            "assuming besides A-01 to A-06, A-26 to A-30",
+            "composed by hand",
+        ),
         rows=tuple(rows),
         note="Two engines share no code and work on different models. Within which bounds CBMC"
-             " proves is in the table of harnesses; what is composed by hand no prover has seen.",
-    )  # fmt: skip
+        " proves is in the table of harnesses; what is composed by hand no prover has seen.",
+    )

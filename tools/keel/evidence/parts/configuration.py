@@ -64,10 +64,16 @@ def make(context: Context) -> Part:
         files |= bill(context)
     summary |= {
         "commit": context.stamp["commit"] or "none, from an archive",
-        "source, SHA-256": context.stamp["tree"], "product, SHA-256": context.stamp["product"],
+        "source, SHA-256": context.stamp["tree"],
+        "product, SHA-256": context.stamp["product"],
         "configuration items": str(len(items)),
-    }  # fmt: skip
+    }
     return Part(
-        name="configuration", title="Configuration", text=TEXT, items=items, summary=summary,
-        tables=(folders(items),), files=files,
-    )  # fmt: skip
+        name="configuration",
+        title="Configuration",
+        text=TEXT,
+        items=items,
+        summary=summary,
+        tables=(folders(items),),
+        files=files,
+    )

@@ -56,13 +56,23 @@ def declared(text: str) -> Iterator[Declared]:
 def items_of(unit: Unit, root: Path) -> Iterator[Item]:
     """A unit and its functions."""
     header = unit.header.relative_to(root).as_posix()
-    yield Item(kind="unit", id=unit.name, title=f"{unit.layer}/{unit.name}",
-               facts={"header": f"file:{header}"}, links=(f"file:{header}",))  # fmt: skip
+    yield Item(
+        kind="unit",
+        id=unit.name,
+        title=f"{unit.layer}/{unit.name}",
+        facts={"header": f"file:{header}"},
+        links=(f"file:{header}",),
+    )
     for one in declared(read_text(unit.header)):
         if one.name.startswith(f"{unit.prefix}"):
-            yield Item(kind="function", id=one.name, title=one.title, text=one.text,
-                       facts={"declared at": f"{header}:{one.line}"},
-                       links=(f"unit:{unit.name}", f"file:{header}"))  # fmt: skip
+            yield Item(
+                kind="function",
+                id=one.name,
+                title=one.title,
+                text=one.text,
+                facts={"declared at": f"{header}:{one.line}"},
+                links=(f"unit:{unit.name}", f"file:{header}"),
+            )
 
 
 def make(context: Context) -> Part:
@@ -72,6 +82,10 @@ def make(context: Context) -> Part:
     functions = [item for item in items if item.kind == "function"]
     bare = [f"{item.id}: has no contract" for item in functions if "/*@" not in item.text]
     return Part(
-        name="contracts", title="Contracts", text=TEXT, items=items, problems=tuple(bare),
+        name="contracts",
+        title="Contracts",
+        text=TEXT,
+        items=items,
+        problems=tuple(bare),
         summary={"units": str(len(units)), "public functions": str(len(functions))},
-    )  # fmt: skip
+    )

@@ -38,18 +38,30 @@ def smoke_table(report: Report) -> Table:
     for name, unit in report.get("units", {}).items():
         failed = [text for text in unit["problems"] if text.startswith("smoke test")]
         accepted = [f"{text}: {why}" for text, why in unit["wp"]["accepted_warnings"].items()]
-        rows.append((
-            f"unit:{name}", str(unit["wp"]["smoke_tests"]), str(len(failed)),
-            str(len(unit["wp"]["not_by_wp"])), str(len(unit["wp"]["by_cbmc"])), "; ".join(accepted),
-        ))  # fmt: skip
+        rows.append(
+            (
+                f"unit:{name}",
+                str(unit["wp"]["smoke_tests"]),
+                str(len(failed)),
+                str(len(unit["wp"]["not_by_wp"])),
+                str(len(unit["wp"]["by_cbmc"])),
+                "; ".join(accepted),
+            )
+        )
     return Table(
         title="Smoke tests, and what WP leaves",
-        columns=("unit", "smoke tests", "failed", "functions whose postconditions CBMC proves",
-                 "clauses that CBMC proves", "warnings accepted, with the reason"),
+        columns=(
+            "unit",
+            "smoke tests",
+            "failed",
+            "functions whose postconditions CBMC proves",
+            "clauses that CBMC proves",
+            "warnings accepted, with the reason",
+        ),
         rows=tuple(rows),
         note="A smoke test that passes does not show that there is no contradiction; one that fails"
-             " shows a contradiction, or code that nothing reaches.",
-    )  # fmt: skip
+        " shows a contradiction, or code that nothing reaches.",
+    )
 
 
 def left_table(report: Report) -> Table:
@@ -57,13 +69,17 @@ def left_table(report: Report) -> Table:
     rows = []
     for name, unit in report.get("units", {}).items():
         wp = unit["wp"]
-        rows += [(f"unit:{name}", function, "postconditions", "", why)
-                 for function, why in wp["not_by_wp"].items()]  # fmt: skip
+        rows += [
+            (f"unit:{name}", function, "postconditions", "", why)
+            for function, why in wp["not_by_wp"].items()
+        ]
         for key, why in wp["by_cbmc"].items():
             function, clause, harness = key.split()
             rows.append((f"unit:{name}", function, clause, f"harness:{name}/{harness}", why))
-        rows += [(f"unit:{name}", function, "everything: it has no body", "", why)
-                 for function, why in wp["not_proved_here"].items()]  # fmt: skip
+        rows += [
+            (f"unit:{name}", function, "everything: it has no body", "", why)
+            for function, why in wp["not_proved_here"].items()
+        ]
     return Table(
         title="What WP does not prove",
         columns=("unit", "function", "clause", "harness that proves it", "reason"),
@@ -73,32 +89,42 @@ def left_table(report: Report) -> Table:
 
 def prover_table(items: Sequence[Item]) -> Table:
     """How many goals each prover proved."""
-    counts = Counter((item.facts["engine"], item.facts.get("prover", "")) for item in items
-                     if item.state == "good")  # fmt: skip
+    counts = Counter(
+        (item.facts["engine"], item.facts.get("prover", ""))
+        for item in items
+        if item.state == "good"
+    )
     rows = [(engine, prover, str(count)) for (engine, prover), count in sorted(counts.items())]
-    return Table(title="Goals by prover", columns=("engine", "prover", "goals"), rows=tuple(rows),
-                 note="CBMC's are the labels of its assertions, each counted once.")  # fmt: skip
+    return Table(
+        title="Goals by prover",
+        columns=("engine", "prover", "goals"),
+        rows=tuple(rows),
+        note="CBMC's are the labels of its assertions, each counted once.",
+    )
 
 
 def determined_table(report: Report) -> Table:
     """What determines the outcome of each public function."""
     rows = [
         (
-            f"function:{outcome['function']}", outcome["by"],
+            f"function:{outcome['function']}",
+            outcome["by"],
             "; ".join(f"harness:{name}/{harness}" for harness in outcome["harnesses"]),
-            "; ".join(dict.fromkeys(text for texts in outcome["harnesses"].values()
-                                    for text in texts)),
+            "; ".join(
+                dict.fromkeys(text for texts in outcome["harnesses"].values() for text in texts)
+            ),
             outcome["reason"],
         )
         for name, unit in report.get("units", {}).items()
         for outcome in unit["determined"]
-    ]  # fmt: skip
+    ]
     return Table(
         title="What determines the outcome of each function",
-        columns=("function", "by", "shown by", "within", "reason"), rows=tuple(rows),
+        columns=("function", "by", "shown by", "within", "reason"),
+        rows=tuple(rows),
         note="equality: result and every field written are proved to be those of the executable"
-             " specification (specs/model).",
-    )  # fmt: skip
+        " specification (specs/model).",
+    )
 
 
 def summary(
@@ -151,19 +177,32 @@ def make(context: Context) -> Part:
     reviewed = _kept(problems, lambda: reviews.read_reviews(context.root))
     problems += reviews.problems(reviewed)
     return Part(
-        name="formal", title="Formal verification",
+        name="formal",
+        title="Formal verification",
         summary=summary(report, items, reviewed) | opinion.summary(answers, harnesses),
         text=TEXT + ledger.prose_of(soundness),
         tables=(
-            theorems.table(claims, items), determined_table(report),
+            theorems.table(claims, items),
+            determined_table(report),
             *(opinion.table(answers, harnesses, given) for _ in asked),
-            bounds.table(harnesses, report), smoke_table(report), left_table(report),
-            prover_table(items), ledger.ledger_table(assumptions), reviews.table(reviewed),
+            bounds.table(harnesses, report),
+            smoke_table(report),
+            left_table(report),
+            prover_table(items),
+            ledger.ledger_table(assumptions),
+            reviews.table(reviewed),
             *ledger.tables(soundness),
         ),
-        items=(*goals.unit_items(report), *bounds.items(harnesses, report), *items,
-               *(one.item for one in assumptions)),
-        files={"soundness.md": context.root / ledger.FILE,
-               "theorems.toml": context.root / theorems.FILE},
-        measured=goals.measured(report), problems=tuple(dict.fromkeys(problems)),
-    )  # fmt: skip
+        items=(
+            *goals.unit_items(report),
+            *bounds.items(harnesses, report),
+            *items,
+            *(one.item for one in assumptions),
+        ),
+        files={
+            "soundness.md": context.root / ledger.FILE,
+            "theorems.toml": context.root / theorems.FILE,
+        },
+        measured=goals.measured(report),
+        problems=tuple(dict.fromkeys(problems)),
+    )

@@ -60,8 +60,10 @@ def proof_problems(context: Context, board: str) -> Iterator[str]:
     if not proved:
         yield f"build/{PROVED}: does not tell which source was proved"
     elif built != proved:
-        yield (f"{board}: the source built ({built[:12] or 'unknown'}) is not the source proved "
-               f"({proved[:12]})")  # fmt: skip
+        yield (
+            f"{board}: the source built ({built[:12] or 'unknown'}) is not the source proved "
+            f"({proved[:12]})"
+        )
 
 
 def image_problems(context: Context, board: str, report: Report) -> Iterator[str]:
@@ -82,7 +84,9 @@ def image_item(board: str, report: Report, part: str) -> Item:
     file = report[part]["file"]
     tools = ", ".join(f"{name} {version}" for name, version in report["tools"].items())
     return Item(
-        kind="image", id=f"{board}/{file}", title=f"{file} of {board}",
+        kind="image",
+        id=f"{board}/{file}",
+        title=f"{file} of {board}",
         facts={
             "SHA-256": report[part]["sha256"],
             "load address": f"0x{report['load_address']:08x}",
@@ -91,59 +95,77 @@ def image_item(board: str, report: Report, part: str) -> Item:
             "linker's flags": " ".join(report["link_flags"]),
             "checks of places": f"{len(report['checks'])}",
         },
-    )  # fmt: skip
+    )
 
 
 def image_table(reports: Mapping[str, Report]) -> Table:
     """The images with their hashes."""
     return Table(
-        title="Images", columns=("image", "SHA-256", "bytes to load", "sources"),
+        title="Images",
+        columns=("image", "SHA-256", "bytes to load", "sources"),
         rows=tuple(
-            (f"image:{board}/{report[part]['file']}", report[part]["sha256"],
-             str(report["binary"]["size"]), str(len(report["sources"])))
-            for board, report in reports.items() for part in ("elf", "binary")
+            (
+                f"image:{board}/{report[part]['file']}",
+                report[part]["sha256"],
+                str(report["binary"]["size"]),
+                str(len(report["sources"])),
+            )
+            for board, report in reports.items()
+            for part in ("elf", "binary")
         ),
         note="Each was built twice, in two folders, with the same bits. The compiler's own "
-             "libraries that an image is linked with are known by its version, not by a hash.",
-    )  # fmt: skip
+        "libraries that an image is linked with are known by its version, not by a hash.",
+    )
 
 
 def memory_table(reports: Mapping[str, Report]) -> Table:
     """How full the memories are."""
     return Table(
-        title="Memories", columns=("board", "region", "origin", "bytes", "used"),
+        title="Memories",
+        columns=("board", "region", "origin", "bytes", "used"),
         rows=tuple(
             (board, name, f"0x{region['origin']:08x}", str(region["size"]), str(region["used"]))
-            for board, report in reports.items() for name, region in report["regions"].items()
+            for board, report in reports.items()
+            for name, region in report["regions"].items()
         ),
-    )  # fmt: skip
+    )
 
 
 def flag_table(reports: Mapping[str, Report]) -> Table:
     """The flags on which the proofs rest, and which image has them."""
     return Table(
-        title="Flags on which the proofs rest", columns=("flag", "why", "images"),
+        title="Flags on which the proofs rest",
+        columns=("flag", "why", "images"),
         rows=tuple(
-            (flag, why, ", ".join(board for board, report in reports.items()
-                                  if flag in report["flags"]))
+            (
+                flag,
+                why,
+                ", ".join(board for board, report in reports.items() if flag in report["flags"]),
+            )
             for flag, why in COMPILED_AS_PROVED.items()
         ),
         note="The flags that may not occur, each with its reason: tools/keel/boards/semantics.py.",
-    )  # fmt: skip
+    )
 
 
 def differential_rows(target: Report, problems: list[str]) -> tuple[tuple[str, ...], ...]:
     """The units whose builds for host and target were compared."""
     suite = target["suites"].get("differential", {"tests": {}})
     rows = tuple(
-        (name.rpartition("/")[2], str(target["vectors_per_unit"]),
-         "the same bits" if verdict == "passed" else "DIFFER")
+        (
+            name.rpartition("/")[2],
+            str(target["vectors_per_unit"]),
+            "the same bits" if verdict == "passed" else "DIFFER",
+        )
         for name, verdict in sorted(suite["tests"].items())
-    )  # fmt: skip
+    )
     if not rows:
         problems.append(f"build/{TARGET}: host and target were not compared")
-    problems += [f"{unit}: the host's build and the target's give different bits"
-                 for unit, _, verdict in rows if verdict == "DIFFER"]  # fmt: skip
+    problems += [
+        f"{unit}: the host's build and the target's give different bits"
+        for unit, _, verdict in rows
+        if verdict == "DIFFER"
+    ]
     return rows
 
 
@@ -159,23 +181,34 @@ def make(context: Context) -> Part:
     target = context.report(TARGET, problems)
     compared = differential_rows(target, problems) if target else ()
     tables = [
-        Table(title="The same bits on the host and on the emulated Cortex-M7",
-              columns=("unit", "vectors", "verdict"), rows=compared),
-    ]  # fmt: skip
+        Table(
+            title="The same bits on the host and on the emulated Cortex-M7",
+            columns=("unit", "vectors", "verdict"),
+            rows=compared,
+        )
+    ]
     if reports:
         tables[:0] = [image_table(reports), flag_table(reports), memory_table(reports)]
-    files = {f"{board}/{file}": context.build / "firmware" / board / file
-             for board in reports for file in (*FILES, "report.json")}  # fmt: skip
+    files = {
+        f"{board}/{file}": context.build / "firmware" / board / file
+        for board in reports
+        for file in (*FILES, "report.json")
+    }
     return Part(
-        name="object", title="Object code",
+        name="object",
+        title="Object code",
         summary={
             "images": ", ".join(reports),
             "digest of the source proved": product_of(context, PROVED),
-            "units with the same bits on host and target":
-                f"{sum(row[2] != 'DIFFER' for row in compared)} of {len(compared)}",
+            "units with the same bits on host and target": f"{sum(row[2] != 'DIFFER' for row in compared)} of {len(compared)}",
         },
-        text=TEXT, tables=tuple(tables),
-        items=tuple(image_item(board, report, part)
-                    for board, report in reports.items() for part in ("elf", "binary")),
-        files=files, problems=tuple(dict.fromkeys(problems)),
-    )  # fmt: skip
+        text=TEXT,
+        tables=tuple(tables),
+        items=tuple(
+            image_item(board, report, part)
+            for board, report in reports.items()
+            for part in ("elf", "binary")
+        ),
+        files=files,
+        problems=tuple(dict.fromkeys(problems)),
+    )

@@ -115,24 +115,45 @@ def compared(standard: Standard, one: Objective) -> str:
 
 def item_of(standard: Standard, one: Objective) -> Item:
     """An objective as a thing of the package."""
-    return Item(kind="objective", id=f"{standard.id}/{one.id}", title=one.what, text=one.why,
-                state=STATES[one.status],
-                facts={"status": WORDS[one.status],
-                       "number compared with": compared(standard, one)},
-                links=tuple(one.by))  # fmt: skip
+    return Item(
+        kind="objective",
+        id=f"{standard.id}/{one.id}",
+        title=one.what,
+        text=one.why,
+        state=STATES[one.status],
+        facts={"status": WORDS[one.status], "number compared with": compared(standard, one)},
+        links=tuple(one.by),
+    )
 
 
 def table_of(standard: Standard) -> Table:
     """The objectives of a standard."""
     rows = tuple(
-        (f"objective:{standard.id}/{one.id}", one.checked or UNCHECKED, one.what, WORDS[one.status],
-         ", ".join(one.by).replace("part:", "").replace("file:", ""), one.why)
+        (
+            f"objective:{standard.id}/{one.id}",
+            one.checked or UNCHECKED,
+            one.what,
+            WORDS[one.status],
+            ", ".join(one.by).replace("part:", "").replace("file:", ""),
+            one.why,
+        )
         for one in standard.objective
-    )  # fmt: skip
-    columns = ("objective", "number compared with", "in our words", "status", "served by",
-               "what is missing")  # fmt: skip
-    notes = [standard.note, *(f"{source.id} ({source.address}, read on {source.on}): {source.what}."
-                              for source in standard.source)]  # fmt: skip
+    )
+    columns = (
+        "objective",
+        "number compared with",
+        "in our words",
+        "status",
+        "served by",
+        "what is missing",
+    )
+    notes = [
+        standard.note,
+        *(
+            f"{source.id} ({source.address}, read on {source.on}): {source.what}."
+            for source in standard.source
+        ),
+    ]
     return Table(title=standard.title, columns=columns, rows=rows, note=" ".join(notes))
 
 
@@ -149,7 +170,10 @@ def make(context: Context) -> Part:
     standards = read_standards(context.root)
     items = tuple(item_of(standard, one) for standard in standards for one in standard.objective)
     return Part(
-        name="objectives", title="Objectives of the standards", text=TEXT, items=items,
+        name="objectives",
+        title="Objectives of the standards",
+        text=TEXT,
+        items=items,
         summary={standard.title: figures(standard) for standard in standards},
         tables=tuple(table_of(standard) for standard in standards),
-    )  # fmt: skip
+    )

@@ -8,11 +8,23 @@ from keel.evidence.markdown import paragraphs, sections, tables
 from keel.evidence.part import Context, Part, Table
 
 PLAN = "docs/plan.md"
-SECTIONS = ("Verification", "Configuration management", "Problem reporting", "Tools",
-            "Roles and independence")  # fmt: skip
+SECTIONS = (
+    "Verification",
+    "Configuration management",
+    "Problem reporting",
+    "Tools",
+    "Roles and independence",
+)
 # What the plan refers to, and a reviewer without the repository asks for.
-DOCUMENTS = (PLAN, "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md", "specs/soundness.md",
-             "docs/proved.md", "docs/evidence.md")  # fmt: skip
+DOCUMENTS = (
+    PLAN,
+    "CONTRIBUTING.md",
+    "SECURITY.md",
+    "CHANGELOG.md",
+    "specs/soundness.md",
+    "docs/proved.md",
+    "docs/evidence.md",
+)
 
 
 def tables_of(title: str, text: str) -> list[Table]:
@@ -32,7 +44,11 @@ def make(context: Context) -> Part:
     words = [f"{name}\n\n{paragraphs(found[name])}" for name in found]
     files = {name: context.root / name for name in DOCUMENTS}
     return Part(
-        name="plans", title="Plans", text="\n\n".join(words), problems=tuple(problems),
+        name="plans",
+        title="Plans",
+        text="\n\n".join(words),
+        problems=tuple(problems),
         tables=tuple(table for name in found for table in tables_of(name, found[name])),
-        files=files, summary={"sections": str(len(found)), "documents": str(len(files))},
-    )  # fmt: skip
+        files=files,
+        summary={"sections": str(len(found)), "documents": str(len(files))},
+    )

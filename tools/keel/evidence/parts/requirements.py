@@ -33,8 +33,12 @@ requirements together are enough for their parent no tool can say: that is for a
 
 def text_of(one: Requirement) -> str:
     """A requirement's texts, as paragraphs."""
-    named = {"RATIONALE": "Rationale", "DEPARTURE": "Departure from the paper",
-             "DERIVED": "Derived", "COMMENT": "Comment"}  # fmt: skip
+    named = {
+        "RATIONALE": "Rationale",
+        "DEPARTURE": "Departure from the paper",
+        "DERIVED": "Derived",
+        "COMMENT": "Comment",
+    }
     rest = [f"{title}: {one.of(name)}" for name, title in named.items() if one.of(name)]
     return "\n\n".join([one.of("STATEMENT"), *rest])
 
@@ -57,9 +61,14 @@ def item_of(one: Requirement, traced: Traced) -> Item:
     links += [f"function:{function.name}" for function in verdicts.bearing(one.uid)]
     links += [verdict.key for verdict in own]
     return Item(
-        kind="requirement", id=one.uid, title=one.of("TITLE"), text=text_of(one),
-        state=cast("State", traced.state[one.uid]), facts=facts, links=tuple(links),
-    )  # fmt: skip
+        kind="requirement",
+        id=one.uid,
+        title=one.of("TITLE"),
+        text=text_of(one),
+        state=cast("State", traced.state[one.uid]),
+        facts=facts,
+        links=tuple(links),
+    )
 
 
 def documents(known: Iterable[Requirement], state: Mapping[str, str]) -> Table:
@@ -71,19 +80,26 @@ def documents(known: Iterable[Requirement], state: Mapping[str, str]) -> Table:
         title="Requirements by document",
         columns=("document", "requirements", "good", "told", "open", "bad"),
         rows=tuple(
-            (f"specs/requirements/{name}.sdoc", str(counts.total()),
-             *(str(counts[one]) for one in ("good", "told", "open", "bad")))
+            (
+                f"specs/requirements/{name}.sdoc",
+                str(counts.total()),
+                *(str(counts[one]) for one in ("good", "told", "open", "bad")),
+            )
             for name, counts in rows.items()
         ),
-    )  # fmt: skip
+    )
 
 
 def listing(title: str, name: str, known: Iterable[Requirement], note: str = "") -> Table:
     """All requirements that have a certain text."""
-    rows = tuple((f"requirement:{one.uid}", one.of("TITLE"), one.of("SOURCE") or "none",
-                  one.of(name)) for one in known if one.of(name))  # fmt: skip
-    return Table(title=title, columns=("requirement", "title", "source", "reason"), rows=rows,
-                 note=note)  # fmt: skip
+    rows = tuple(
+        (f"requirement:{one.uid}", one.of("TITLE"), one.of("SOURCE") or "none", one.of(name))
+        for one in known
+        if one.of(name)
+    )
+    return Table(
+        title=title, columns=("requirement", "title", "source", "reason"), rows=rows, note=note
+    )
 
 
 def of_the_paper(known: Iterable[Requirement]) -> Table:
@@ -91,27 +107,38 @@ def of_the_paper(known: Iterable[Requirement]) -> Table:
     return Table(
         title="From the paper to the requirements",
         columns=("source", "requirement", "title"),
-        rows=tuple((one.of("SOURCE"), f"requirement:{one.uid}", one.of("TITLE"))
-                   for one in known if one.of("SOURCE")),
+        rows=tuple(
+            (one.of("SOURCE"), f"requirement:{one.uid}", one.of("TITLE"))
+            for one in known
+            if one.of("SOURCE")
+        ),
         note="No requirement names what the paper describes and Keel does not have: the flight"
-             " modes, the cascade, the mixer, the black box, parameters, USB, the other sensors,"
-             " and the hardware.",
-    )  # fmt: skip
+        " modes, the cascade, the mixer, the black box, parameters, USB, the other sensors,"
+        " and the hardware.",
+    )
 
 
-def levels(known: Mapping[str, Requirement], below: Mapping[str, list[Requirement]],
-           state: Mapping[str, str]) -> Table:  # fmt: skip
+def levels(
+    known: Mapping[str, Requirement],
+    below: Mapping[str, list[Requirement]],
+    state: Mapping[str, str],
+) -> Table:
     """Each high-level requirement with those that serve it."""
     return Table(
         title="From high-level to low-level requirements",
         columns=("high-level", "title", "low-level", "state"),
         rows=tuple(
-            (f"requirement:{uid}", one.of("TITLE"),
-             " ".join(f"requirement:{low.uid}" for low in below[uid])
-             or f"none; tests: {one.of('TESTS')}", state[uid])
-            for uid, one in known.items() if one.high
+            (
+                f"requirement:{uid}",
+                one.of("TITLE"),
+                " ".join(f"requirement:{low.uid}" for low in below[uid])
+                or f"none; tests: {one.of('TESTS')}",
+                state[uid],
+            )
+            for uid, one in known.items()
+            if one.high
         ),
-    )  # fmt: skip
+    )
 
 
 def written(context: Context, problems: list[str]) -> dict[str, Path]:
@@ -136,16 +163,25 @@ def make(context: Context) -> Part:
     every = list(known.values())
     derived = "Derived requirements are given to the assessment of safety, with their reasons."
     return Part(
-        name="requirements", title="Requirements", text=TEXT,
+        name="requirements",
+        title="Requirements",
+        text=TEXT,
         summary={
             "high-level requirements": str(sum(one.high for one in every)),
             "low-level requirements": str(sum(not one.high for one in every)),
-            **{f"{name}": str(list(state.values()).count(name))
-               for name in ("good", "told", "open", "bad")},
+            **{
+                f"{name}": str(list(state.values()).count(name))
+                for name in ("good", "told", "open", "bad")
+            },
         },
-        tables=(documents(every, state), levels(known, traced.below, state), of_the_paper(every),
-                listing("Departures from the paper", "DEPARTURE", every),
-                listing("Derived requirements", "DERIVED", every, derived)),
+        tables=(
+            documents(every, state),
+            levels(known, traced.below, state),
+            of_the_paper(every),
+            listing("Departures from the paper", "DEPARTURE", every),
+            listing("Derived requirements", "DERIVED", every, derived),
+        ),
         items=tuple(item_of(one, traced) for one in every),
-        files=files, problems=tuple(trouble),
-    )  # fmt: skip
+        files=files,
+        problems=tuple(trouble),
+    )

@@ -40,11 +40,18 @@ def entries(text: str) -> Iterator[dict[str, str]]:
 
 def constraint(row: Mapping[str, str]) -> Item:
     """What the integrator must ensure."""
-    facts = {"ensured by": column(row, "who"), "verification": column(row, "how"),
-             "stated in": column(row, "stated")}  # fmt: skip
-    return Item(kind="constraint", id=row["id"].replace("A-", "SC-"), title=row["assumption"],
-                facts={name: text for name, text in facts.items() if text},
-                links=(f"assumption:{row['id']}",))  # fmt: skip
+    facts = {
+        "ensured by": column(row, "who"),
+        "verification": column(row, "how"),
+        "stated in": column(row, "stated"),
+    }
+    return Item(
+        kind="constraint",
+        id=row["id"].replace("A-", "SC-"),
+        title=row["assumption"],
+        facts={name: text for name, text in facts.items() if text},
+        links=(f"assumption:{row['id']}",),
+    )
 
 
 def faults(rows: list[dict[str, str]]) -> Iterator[str]:
@@ -62,19 +69,38 @@ def make(context: Context) -> Part:
     """The manual."""
     rows = list(entries(read_text(context.root / LEDGER)))
     own = [constraint(row) for row in rows if row.get("owner") == OWNER]
-    others = tuple((f"assumption:{row['id']}", row["assumption"], row.get("owner", ""))
-                   for row in rows if row.get("owner") != OWNER)  # fmt: skip
+    others = tuple(
+        (f"assumption:{row['id']}", row["assumption"], row.get("owner", ""))
+        for row in rows
+        if row.get("owner") != OWNER
+    )
     manual = Table(
         title="Constraints on the integrator",
         columns=("constraint", "what must hold", "by whom", "how it is verified"),
-        rows=tuple((f"constraint:{item.id}", item.title, item.facts.get("ensured by", ""),
-                    item.facts.get("verification", "")) for item in own),
-    )  # fmt: skip
-    rest = Table(title="Assumptions that are not the integrator's", rows=others,
-                 columns=("assumption", "what is assumed", "owner"))  # fmt: skip
+        rows=tuple(
+            (
+                f"constraint:{item.id}",
+                item.title,
+                item.facts.get("ensured by", ""),
+                item.facts.get("verification", ""),
+            )
+            for item in own
+        ),
+    )
+    rest = Table(
+        title="Assumptions that are not the integrator's",
+        rows=others,
+        columns=("assumption", "what is assumed", "owner"),
+    )
     return Part(
-        name="safety", title="Safety manual", text=TEXT, items=tuple(own), tables=(manual, rest),
-        summary={"constraints on the integrator": str(len(own)),
-                 "other assumptions": str(len(others))},
+        name="safety",
+        title="Safety manual",
+        text=TEXT,
+        items=tuple(own),
+        tables=(manual, rest),
+        summary={
+            "constraints on the integrator": str(len(own)),
+            "other assumptions": str(len(others)),
+        },
         problems=tuple(faults(rows)),
-    )  # fmt: skip
+    )

@@ -48,7 +48,10 @@ def lint_problems(lint: Report) -> Iterator[str]:
 def deviation_item(one: Report) -> Item:
     """A deviation from MISRA C."""
     return Item(
-        kind="deviation", id=one["id"], title=f"MISRA C:2012 {one['rule']}", text=one["reason"],
+        kind="deviation",
+        id=one["id"],
+        title=f"MISRA C:2012 {one['rule']}",
+        text=one["reason"],
         facts={
             "rule": one["rule"],
             "declared": f"specs/misra_deviations.toml:{one['declared']}",
@@ -56,22 +59,24 @@ def deviation_item(one: Report) -> Item:
             "only lines that match": one["line"] or "any",
             "findings that it allows": str(sum(one["allows"].values())),
         },
-    )  # fmt: skip
+    )
 
 
 def deviation_table(lint: Report) -> Table:
     """The deviations, and what each allows."""
     rows = tuple(
         (f"deviation:{one['id']}", one["rule"], file, str(count))
-        for one in lint["deviations"] for file, count in one["allows"].items()
-    )  # fmt: skip
+        for one in lint["deviations"]
+        for file, count in one["allows"].items()
+    )
     without = ", ".join(lint["rules_without_checker"])
     return Table(
         title="MISRA C:2012: findings that a deviation allows",
-        columns=("deviation", "rule or check", "file", "findings"), rows=rows,
+        columns=("deviation", "rule or check", "file", "findings"),
+        rows=rows,
         note=f"The checker has nothing for the rules {without}, and does not look for the "
-             "directives, which are not decidable; the amendments' chapters are not checked.",
-    )  # fmt: skip
+        "directives, which are not decidable; the amendments' chapters are not checked.",
+    )
 
 
 # --- Abstract interpretation ---------------------------------------------------------------------
@@ -83,27 +88,32 @@ def eva_tables(eva: Report) -> Iterator[Table]:
         (f"{one['file']} {one['function']}", "alarm", one["text"], one["reason"])
         for one in eva["explained"]["alarm"]
     ] + [(one["function"], "writes", "", one["reason"]) for one in eva["explained"]["writes"]]
-    yield Table(title="Abstract interpretation: what is explained",
-                columns=("where", "kind", "what", "reason"), rows=tuple(rows),
-                note="Unsigned overflow is no undefined behaviour and not looked for here; the "
-                     "proofs exclude it where it is not meant.")  # fmt: skip
+    yield Table(
+        title="Abstract interpretation: what is explained",
+        columns=("where", "kind", "what", "reason"),
+        rows=tuple(rows),
+        note="Unsigned overflow is no undefined behaviour and not looked for here; the "
+        "proofs exclude it where it is not meant.",
+    )
     yield Table(
         title="Statements of the demo and the kernel that Eva reached",
         columns=("function", "reached", "of"),
         rows=tuple((name, str(reached), str(of)) for name, (reached, of) in eva["reach"].items()),
         note="An inline function has a number for each file that uses it. Functions that the demo "
-             "does not call are not analysed; what was not reached cannot be reached from the "
-             "demo's start, such as the refusals of a wrong configuration.",
-    )  # fmt: skip
+        "does not call are not analysed; what was not reached cannot be reached from the "
+        "demo's start, such as the refusals of a wrong configuration.",
+    )
     yield Table(
         title="What is written, against what the contract names",
         columns=("function", "verdict", "context", "reached of it"),
-        rows=tuple((one["function"], one["verdict"], one["run"], f"{100 * one['reached']:.0f} %")
-                   for one in eva["assigns"]),
+        rows=tuple(
+            (one["function"], one["verdict"], one["run"], f"{100 * one['reached']:.0f} %")
+            for one in eva["assigns"]
+        ),
         note="Alone: called once, with objects that hold anything; what is not reached there was "
-             "not compared. As far as arrays: the clause names an element by an index that is not "
-             "known there, and the array is compared. WP proves every clause for all contexts.",
-    )  # fmt: skip
+        "not compared. As far as arrays: the clause names an element by an index that is not "
+        "known there, and the array is compared. WP proves every clause for all contexts.",
+    )
 
 
 # --- Stacks --------------------------------------------------------------------------------------
@@ -118,21 +128,31 @@ def stack_problems(board: str, report: Report) -> Iterator[str]:
     """Stacks without room, and bounds that a run has refuted."""
     for name, stack in report["stacks"].items():
         if stack["bound"] > stack["size"]:
-            yield (f"{board}: the stack {name} needs up to {stack['bound']} bytes, and has "
-                   f"{stack['size']}")  # fmt: skip
+            yield (
+                f"{board}: the stack {name} needs up to {stack['bound']} bytes, and has "
+                f"{stack['size']}"
+            )
     deepest = report["painted"]
     main = report["stacks"]["main"]["bound"] - report["exception_frame_bytes"]
     if deepest is not None and deepest > main:
-        yield (f"{board}: the painted stack was {deepest} bytes deep, deeper than the bound of "
-               f"{main}: the bound is wrong")  # fmt: skip
+        yield (
+            f"{board}: the painted stack was {deepest} bytes deep, deeper than the bound of "
+            f"{main}: the bound is wrong"
+        )
 
 
 def stack_rows(board: str, report: Report) -> Iterator[tuple[str, ...]]:
     """The stacks of a board, and its tasks."""
     painted = "did not run" if report["painted"] is None else str(report["painted"])
     for name, stack in report["stacks"].items():
-        yield (board, f"stack {name}", str(stack["bound"]), str(stack["size"]),
-               painted if name == "main" else "", short_path(stack["path"]))  # fmt: skip
+        yield (
+            board,
+            f"stack {name}",
+            str(stack["bound"]),
+            str(stack["size"]),
+            painted if name == "main" else "",
+            short_path(stack["path"]),
+        )
     for name, task in report["tasks"].items():
         yield board, f"task {name}", str(task["bound"]), "", "", short_path(task["path"])
 
@@ -144,10 +164,10 @@ def stack_table(reports: Mapping[str, Report]) -> Table:
         columns=("board", "of", "bound", "room", "painted", "deepest path"),
         rows=tuple(row for board, report in reports.items() for row in stack_rows(board, report)),
         note="People write down the targets of calls through pointers (specs/stack.toml), where a "
-             "target that is missing shows as a function that nobody calls. Painted: how deep the "
-             "stack was when this very image ran on the emulated board; the bounds of boards that "
-             "no emulator runs are compared with nothing.",
-    )  # fmt: skip
+        "target that is missing shows as a function that nobody calls. Painted: how deep the "
+        "stack was when this very image ran on the emulated board; the bounds of boards that "
+        "no emulator runs are compared with nothing.",
+    )
 
 
 # --- Costs ---------------------------------------------------------------------------------------
@@ -168,15 +188,21 @@ def cost_table(figures: Mapping[str, Report]) -> Table:
         title="Instructions on the emulated Cortex-M7",
         columns=("what", "runs", "mean", "longest", "budget of the mean", "goal", "goal met"),
         rows=tuple(
-            (name, str(one["passes"]), f"{one['mean']:.1f}", str(one["longest"]),
-             f"{one['budget']:.1f}", str(one["goal"] or "none"),
-             "" if not one["goal"] else "yes" if one["mean"] <= one["goal"] else "no")
+            (
+                name,
+                str(one["passes"]),
+                f"{one['mean']:.1f}",
+                str(one["longest"]),
+                f"{one['budget']:.1f}",
+                str(one["goal"] or "none"),
+                "" if not one["goal"] else "yes" if one["mean"] <= one["goal"] else "no",
+            )
             for name, one in figures.items()
         ),
         note="A budget is what was measured when it was last accepted, and fails the build when it "
-             "is exceeded; a goal is what the project wishes for. The longest is of the runs that "
-             "were measured, no worst case.",
-    )  # fmt: skip
+        "is exceeded; a goal is what the project wishes for. The longest is of the runs that "
+        "were measured, no worst case.",
+    )
 
 
 # --- All of it -----------------------------------------------------------------------------------
@@ -230,6 +256,12 @@ def make(context: Context) -> Part:
             f"{len(figures)}"
         )
     return Part(
-        name="static", title="Static analysis", summary=summary, text=TEXT, tables=tuple(tables),
-        items=tuple(items), files=files, problems=tuple(problems),
-    )  # fmt: skip
+        name="static",
+        title="Static analysis",
+        summary=summary,
+        text=TEXT,
+        tables=tuple(tables),
+        items=tuple(items),
+        files=files,
+        problems=tuple(problems),
+    )

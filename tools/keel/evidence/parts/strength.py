@@ -48,18 +48,23 @@ def make(context: Context) -> Part:
     problems += wrong.problems(mistakes) if report else []
     current = [one for one in standings if one.current]
     return Part(
-        name="strength", title="Strength of the proofs",
+        name="strength",
+        title="Strength of the proofs",
         summary={
             "units whose mutants were run": f"{len(current)} of {len(standings)}",
             "mutants killed": mutants.score(current),
             "survivors unexplained": str(sum(len(mutants.unexplained(one)) for one in current)),
             "blocks reached by harnesses": blocks.summary(report),
             "mistakes on purpose refused": f"{sum(one.refused is True for one in mistakes)}"
-                                           f" of {len(mistakes)}",
+            f" of {len(mistakes)}",
         },
         text=TEXT,
-        tables=(mutants.table(standings), mutants.survivors(standings), wrong.table(mistakes),
-                *blocks.tables(harnesses, functions, reasons, calls)),
+        tables=(
+            mutants.table(standings),
+            mutants.survivors(standings),
+            wrong.table(mistakes),
+            *blocks.tables(harnesses, functions, reasons, calls),
+        ),
         items=(*mutants.items(standings), *wrong.items(mistakes)),
         problems=tuple(dict.fromkeys(problems)),
-    )  # fmt: skip
+    )

@@ -56,8 +56,10 @@ def read_run(context: Context, run: str, problems: list[str]) -> Report:
     folder = RUNS[run]
     report = context.report(f"{folder}/report.json", problems)
     if report.get("filter"):
-        problems.append(f"build/{folder}/report.json: only the suites with "
-                        f"{report['filter']!r} in their names ran")  # fmt: skip
+        problems.append(
+            f"build/{folder}/report.json: only the suites with "
+            f"{report['filter']!r} in their names ran"
+        )
     if left := report.get("left_out"):
         problems.append(
             f"build/{folder}/report.json: {len(left)} suites did not run: make test-all"
@@ -90,8 +92,9 @@ def check_run(context: Context, run: str, report: Report, problems: list[str]) -
     told = read_junit(context, run, problems)
     verdicts = {
         (suite, test): verdict
-        for suite, outcome in report["suites"].items() for test, verdict in outcome["tests"].items()
-    }  # fmt: skip
+        for suite, outcome in report["suites"].items()
+        for test, verdict in outcome["tests"].items()
+    }
     for (suite, test), verdict in verdicts.items():
         if verdict != "passed":
             reason = told.get((suite, test), "")
@@ -128,23 +131,28 @@ def test_items(verdicts: Verdicts, known: set[str]) -> Iterator[Item]:
         uid = f"{match[1]}-{match[2]}" if match else ""
         good = all(verdict == "passed" for verdict in ends.values())
         yield Item(
-            kind="test", id=f"{suite}/{test}", title=test.replace("_", " "), facts=ends,
+            kind="test",
+            id=f"{suite}/{test}",
+            title=test.replace("_", " "),
+            facts=ends,
             state="good" if good else "bad",
             links=(f"requirement:{uid}",) if uid in known else (),
-        )  # fmt: skip
+        )
 
 
 def suite_table(reports: Mapping[str, Report]) -> Table:
     """A row for each suite and run."""
     rows = [
         (suite, run, str(outcome["passed"]), str(outcome["failed"]), str(len(outcome["skipped"])))
-        for run, report in reports.items() for suite, outcome in report.get("suites", {}).items()
-    ]  # fmt: skip
+        for run, report in reports.items()
+        for suite, outcome in report.get("suites", {}).items()
+    ]
     skipped = [
         f"{suite}: {test} ({why})"
-        for report in reports.values() for suite, outcome in report.get("suites", {}).items()
+        for report in reports.values()
+        for suite, outcome in report.get("suites", {}).items()
         for test, why in outcome["skipped"].items()
-    ]  # fmt: skip
+    ]
     note = f"Skipped, and so no evidence: {'; '.join(skipped)}." if skipped else ""
     columns = ("suite", "where", "passed", "failed", "skipped")
     return Table(title="Suites of tests", columns=columns, rows=tuple(rows), note=note)
@@ -172,16 +180,26 @@ def coverage_tables(report: Report) -> list[Table]:
     if not report:
         return []
     columns = ("file", "function", *METRICS.values())
-    figures = Table(title="Structural coverage by the unit tests, on the host", columns=columns,
-                    rows=tuple(coverage_rows(report)))  # fmt: skip
+    figures = Table(
+        title="Structural coverage by the unit tests, on the host",
+        columns=columns,
+        rows=tuple(coverage_rows(report)),
+    )
     gaps = tuple(
         (f"{gap['file']}:{gap['line']}", gap["text"], gap["what"], gap["reason"])
         for gap in report["excluded"]
     )
     note = "" if gaps else "There is no gap."
     titles = ("place", "source", "gap", "reason")
-    return [figures, Table(title="Gaps of structural coverage, with their reasons", columns=titles,
-                           rows=gaps, note=note)]  # fmt: skip
+    return [
+        figures,
+        Table(
+            title="Gaps of structural coverage, with their reasons",
+            columns=titles,
+            rows=gaps,
+            note=note,
+        ),
+    ]
 
 
 def check_coverage(report: Report, problems: list[str]) -> None:
@@ -190,8 +208,9 @@ def check_coverage(report: Report, problems: list[str]) -> None:
         place = f"{gap['file']}:{gap['line']}"
         problems.append(f"{place}: {gap['what']}, and no reason is given: {gap['text']}")
     for item in report.get("unused_exclusions", []):
-        problems.append(f"specs/coverage_exclusions.toml: excludes nothing: {item['file']}: "
-                        f"{item['line']}")  # fmt: skip
+        problems.append(
+            f"specs/coverage_exclusions.toml: excludes nothing: {item['file']}: {item['line']}"
+        )
 
 
 # --- Coverage of the object code -----------------------------------------------------------------
@@ -214,16 +233,29 @@ def object_tables(report: Report) -> list[Table]:
     columns = ("file", "function", *CONDITIONALS.values(), "outcomes seen")
     untraced = ", ".join(f"unit/{name}" for name in report["untraced"])
     note = f"Of the unit tests this one did not run here, for it is too long: {untraced}."
-    figures = Table(title="Conditional instructions of the object code, on the emulated Cortex-M7",
-                    columns=columns, rows=tuple(object_rows(report)), note=note)  # fmt: skip
+    figures = Table(
+        title="Conditional instructions of the object code, on the emulated Cortex-M7",
+        columns=columns,
+        rows=tuple(object_rows(report)),
+        note=note,
+    )
     gaps = tuple(
-        (f"{gap['file']}:{gap['line']}", gap["text"],
-         f"{gap['function']}+0x{gap['offset']:x} {gap['instruction']}", gap["never"], gap["reason"])
+        (
+            f"{gap['file']}:{gap['line']}",
+            gap["text"],
+            f"{gap['function']}+0x{gap['offset']:x} {gap['instruction']}",
+            gap["never"],
+            gap["reason"],
+        )
         for gap in report["explained"]
-    )  # fmt: skip
+    )
     titles = ("place", "source", "instruction", "never", "reason")
-    return [figures, Table(title="Outcomes that no test can show, with their reasons",
-                           columns=titles, rows=gaps)]  # fmt: skip
+    return [
+        figures,
+        Table(
+            title="Outcomes that no test can show, with their reasons", columns=titles, rows=gaps
+        ),
+    ]
 
 
 def check_object(report: Report, problems: list[str]) -> None:
@@ -234,9 +266,11 @@ def check_object(report: Report, problems: list[str]) -> None:
             f"{gap['instruction']}: never {gap['never']}, and no reason is given: {gap['text']}"
         )
     for item in report.get("stale_reasons", []):
-        problems.append(f"specs/object_coverage.toml: fits another number of gaps than "
-                        f"{item['instructions']}: {item['function']}: never {item['never']}: "
-                        f"{item['line']}")  # fmt: skip
+        problems.append(
+            f"specs/object_coverage.toml: fits another number of gaps than "
+            f"{item['instructions']}: {item['function']}: never {item['never']}: "
+            f"{item['line']}"
+        )
 
 
 # --- Contracts that run ---------------------------------------------------------------------------
@@ -248,21 +282,32 @@ def contract_tables(report: Report) -> list[Table]:
         return []
     rows = tuple(
         (f"function:{name}", unit, "no clause was violated" if not item["failures"] else "VIOLATED")
-        for unit, item in report["units"].items() for name in item["functions"]
-    )  # fmt: skip
+        for unit, item in report["units"].items()
+        for name in item["functions"]
+    )
     ignored = tuple(
-        (f"function:{clause['function']}", f"{clause['file']}:{clause['line']}",
-         clause["construct"])
-        for item in report["units"].values() for clause in item["ignored"]
-    )  # fmt: skip
+        (
+            f"function:{clause['function']}",
+            f"{clause['file']}:{clause['line']}",
+            clause["construct"],
+        )
+        for item in report["units"].values()
+        for clause in item["ignored"]
+    )
     absent = tuple((", ".join(item["functions"]), item["reason"]) for item in report["left_out"])
     return [
-        Table(title="Contracts that ran with the unit tests", rows=rows,
-              columns=("function", "file", "outcome")),
-        Table(title="Clauses of these that E-ACSL leaves out", rows=ignored,
-              columns=("function", "place", "construct that it does not support")),
+        Table(
+            title="Contracts that ran with the unit tests",
+            rows=rows,
+            columns=("function", "file", "outcome"),
+        ),
+        Table(
+            title="Clauses of these that E-ACSL leaves out",
+            rows=ignored,
+            columns=("function", "place", "construct that it does not support"),
+        ),
         Table(title="Contracts that did not run", columns=("functions", "reason"), rows=absent),
-    ]  # fmt: skip
+    ]
 
 
 def check_contracts(report: Report, problems: list[str]) -> None:
@@ -280,8 +325,9 @@ def summary_of(
     """The figures that a reader wants first."""
     found = {
         f"Tests {run}": f"{report['passed']} passed, {report['failed']} failed"
-        for run, report in reports.items() if report
-    }  # fmt: skip
+        for run, report in reports.items()
+        if report
+    }
     for metric, title in METRICS.items():
         if coverage:
             covered, total = coverage["total"][metric]
@@ -300,12 +346,20 @@ def summary_of(
 
 def files_of(context: Context) -> dict[str, Path]:
     """The reports."""
-    names = {f"{folder}-{file}": f"{folder}/{file}" for folder in RUNS.values()
-             for file in ("report.json", "junit.xml")}  # fmt: skip
-    names |= {f"{folder}-report.json": f"{folder}/report.json"
-              for folder in ("coverage", "coverage-target", "contracts-run")}  # fmt: skip
-    return {shown: context.build / name for shown, name in names.items()
-            if (context.build / name).is_file()}  # fmt: skip
+    names = {
+        f"{folder}-{file}": f"{folder}/{file}"
+        for folder in RUNS.values()
+        for file in ("report.json", "junit.xml")
+    }
+    names |= {
+        f"{folder}-report.json": f"{folder}/report.json"
+        for folder in ("coverage", "coverage-target", "contracts-run")
+    }
+    return {
+        shown: context.build / name
+        for shown, name in names.items()
+        if (context.build / name).is_file()
+    }
 
 
 def make(context: Context) -> Part:
@@ -321,10 +375,17 @@ def make(context: Context) -> Part:
     contracts = context.report("contracts-run/report.json", problems)
     check_contracts(contracts, problems)
     return Part(
-        name="tests", title="Tests and coverage", text=TEXT,
+        name="tests",
+        title="Tests and coverage",
+        text=TEXT,
         summary=summary_of(reports, coverage, code, contracts),
-        tables=(suite_table(reports), *coverage_tables(coverage), *object_tables(code),
-                *contract_tables(contracts)),
+        tables=(
+            suite_table(reports),
+            *coverage_tables(coverage),
+            *object_tables(code),
+            *contract_tables(contracts),
+        ),
         items=tuple(test_items(verdicts_of(reports), requirements(context.root))),
-        files=files_of(context), problems=tuple(problems),
-    )  # fmt: skip
+        files=files_of(context),
+        problems=tuple(problems),
+    )

@@ -25,8 +25,13 @@ QUALIFY = "qualify/report.json"
 GROUPS = ("prove", "lint", "test", "coverage", "bench", "firmware", "stack", "target")
 HELPERS = ("pip", "why3-config")
 # Reports that tell with which versions they were made, and of which tools by the lock's names.
-VERSIONED = ("prove/report.json", "lint/report.json", "eva/report.json",
-             "firmware/mps2_an500/report.json", "test-target/report.json")  # fmt: skip
+VERSIONED = (
+    "prove/report.json",
+    "lint/report.json",
+    "eva/report.json",
+    "firmware/mps2_an500/report.json",
+    "test-target/report.json",
+)
 TQL = {1: "TQL-1", 2: "TQL-4", 3: "TQL-5", 0: "none"}  # DO-178C, table 12-1, level A.
 CONFIDENCE = {("TI2", "TD2"): "TCL2", ("TI2", "TD3"): "TCL3"}  # ISO 26262-8, table 3; else TCL1.
 
@@ -133,8 +138,10 @@ def entry_problems(settings: Settings, specs: Mapping[str, Spec], root: Path) ->
     """Tools without an entry, entries without a tool, and tests that are not there."""
     names = {one.name for one in settings.tool}
     yield from (f"{SETTINGS}: tool {name} has no entry" for name in sorted(specs.keys() - names))
-    yield from (f"{SETTINGS}: tool {name} is not in tools/toolchain.lock.json"
-                for name in sorted(names - specs.keys()))  # fmt: skip
+    yield from (
+        f"{SETTINGS}: tool {name} is not in tools/toolchain.lock.json"
+        for name in sorted(names - specs.keys())
+    )
     for one in settings.tool:
         for test in one.tests:
             file, _, name = test.partition("/")
@@ -195,14 +202,22 @@ def tool_item(one: Tool, settings: Settings, found: Mapping[str, Found], report:
     seen = found.get(one.name)
     runs = [run for run in report.get("runs", ()) if run["tool"] == one.name]
     known = [problem for problem in settings.problem if problem.tool == one.name]
-    text = "\n\n".join([one.use, f"Checks that notice an error of it: {one.instead}.",
-                        *(f"{problem.what}. Here: {problem.here}." for problem in known)])
+    text = "\n\n".join(
+        [
+            one.use,
+            f"Checks that notice an error of it: {one.instead}.",
+            *(f"{problem.what}. Here: {problem.here}." for problem in known),
+        ]
+    )
     facts = {
         "version": seen.version if seen else "missing",
         "SHA-256 of the program": seen.sha256 if seen else "",
-        "packages": "; ".join(" ".join(filter(None, (part["name"], part["version"],
-                                                     part.get("sha256", ""))))
-                              for part in seen.parts) if seen else "",
+        "packages": "; ".join(
+            " ".join(filter(None, (part["name"], part["version"], part.get("sha256", ""))))
+            for part in seen.parts
+        )
+        if seen
+        else "",
         "DO-330": f"criterion {one.criterion}, {TQL[one.criterion]}" if one.criterion else "none",
         "ISO 26262": f"{one.impact}, {one.detection}: {one.confidence}",
         "IEC 61508": one.kind,
@@ -212,11 +227,17 @@ def tool_item(one: Tool, settings: Settings, found: Mapping[str, Found], report:
         "what was reviewed": one.reviewed,
         "where": ", ".join(one.sources),
         "what was not": one.left,
-    }  # fmt: skip
+    }
     bad = any(run["wrong"] for run in runs) or not seen
     state: State = "bad" if bad else "good" if runs else "told"
-    return Item(kind="tool", id=one.name, title=one.name, text=text, state=state,
-                facts={key: value for key, value in facts.items() if value})  # fmt: skip
+    return Item(
+        kind="tool",
+        id=one.name,
+        title=one.name,
+        text=text,
+        state=state,
+        facts={key: value for key, value in facts.items() if value},
+    )
 
 
 def lines_of(path: Path) -> int:
@@ -224,55 +245,93 @@ def lines_of(path: Path) -> int:
     return len(path.read_text(encoding="utf-8").splitlines())
 
 
-def tables(settings: Settings, specs: Mapping[str, Spec], found: Mapping[str, Found],
-           report: Report) -> Iterator[Shown]:  # fmt: skip
+def tables(
+    settings: Settings, specs: Mapping[str, Spec], found: Mapping[str, Found], report: Report
+) -> Iterator[Shown]:
     """The tools, the faults, the known problems."""
     yield Shown(
-        title="Tools", columns=("tool", "version", "locked", "from", "SHA-256 of the program"),
+        title="Tools",
+        columns=("tool", "version", "locked", "from", "SHA-256 of the program"),
         rows=tuple(
-            (f"tool:{name}", found[name].version if name in found else "missing", spec.wanted,
-             spec.source, found[name].sha256 if name in found else "")
+            (
+                f"tool:{name}",
+                found[name].version if name in found else "missing",
+                spec.wanted,
+                spec.source,
+                found[name].sha256 if name in found else "",
+            )
             for name, spec in specs.items()
             if any(one.name == name for one in settings.tool)
         ),
         note="A tool of the host's packages is known by the version and the hash of its "
-             "program; its libraries follow the host's suite.",
-    )  # fmt: skip
+        "program; its libraries follow the host's suite.",
+    )
     yield Shown(
         title="What would need qualification",
         columns=("tool", "DO-330 criterion", "level A", "ISO 26262", "IEC 61508", "what notices"),
-        rows=tuple((f"tool:{one.name}", str(one.criterion or "none"), TQL[one.criterion],
-                    one.confidence, one.kind, one.instead) for one in settings.tool),
-    )  # fmt: skip
+        rows=tuple(
+            (
+                f"tool:{one.name}",
+                str(one.criterion or "none"),
+                TQL[one.criterion],
+                one.confidence,
+                one.kind,
+                one.instead,
+            )
+            for one in settings.tool
+        ),
+    )
     yield Shown(
-        title="The judge of the proofs", columns=("engine", "module", "lines"),
+        title="The judge of the proofs",
+        columns=("engine", "module", "lines"),
         rows=tuple(
             (engine, path.resolve().relative_to(ROOT).as_posix(), str(lines_of(path)))
-            for engine in ASKERS for path in judges(engine)
+            for engine in ASKERS
+            for path in judges(engine)
         ),
         note="A kept verdict rests on these modules of Keel's own and on no other: they are what "
-             "would need qualification. `make lint` holds what they import.",
-    )  # fmt: skip
+        "would need qualification. `make lint` holds what they import.",
+    )
     yield Shown(
-        title="Seeded faults", columns=("tool", "fault", "asked as", "version", "verdict"),
-        rows=tuple((f"tool:{run['tool']}", run["fault"], run["how"], run["version"],
-                    run["wrong"] or "detected") for run in report.get("runs", ())),
+        title="Seeded faults",
+        columns=("tool", "fault", "asked as", "version", "verdict"),
+        rows=tuple(
+            (
+                f"tool:{run['tool']}",
+                run["fault"],
+                run["how"],
+                run["version"],
+                run["wrong"] or "detected",
+            )
+            for run in report.get("runs", ())
+        ),
         note="Further faults are seeded by the tests that each tool's page names, and by the wrong "
-             "bodies and wrong bounds of the proofs.",
-    )  # fmt: skip
+        "bodies and wrong bounds of the proofs.",
+    )
     yield Shown(
         title="Reviews of known problems",
         columns=("tool", "known problems", "on", "where", "what was reviewed", "what was not"),
-        rows=tuple((f"tool:{one.name}", one.known, str(one.on or ""), ", ".join(one.sources),
-                    one.reviewed, one.left) for one in settings.tool),
-    )  # fmt: skip
+        rows=tuple(
+            (
+                f"tool:{one.name}",
+                one.known,
+                str(one.on or ""),
+                ", ".join(one.sources),
+                one.reviewed,
+                one.left,
+            )
+            for one in settings.tool
+        ),
+    )
     yield Shown(
-        title="Known problems", columns=("tool", "source", "problem", "what it means here"),
-        rows=tuple((f"tool:{one.tool}", one.source, one.what, one.here)
-                   for one in settings.problem),
+        title="Known problems",
+        columns=("tool", "source", "problem", "what it means here"),
+        rows=tuple(
+            (f"tool:{one.tool}", one.source, one.what, one.here) for one in settings.problem
+        ),
         note="Not complete: see what was reviewed, tool by tool. Open: "
-             + ", ".join(one.name for one in settings.tool if one.known == "open"),
-    )  # fmt: skip
+        + ", ".join(one.name for one in settings.tool if one.known == "open"),
+    )
 
 
 def reviews(settings: Settings) -> str:
@@ -297,15 +356,17 @@ def make(context: Context) -> Part:
         problems += report_problems(name, made, specs, found)
     runs = report.get("runs", ())
     return Part(
-        name="tools", title="Tools",
+        name="tools",
+        title="Tools",
         summary={
             "tools": str(len(settings.tool)),
             "seeded faults detected": f"{sum(not run['wrong'] for run in runs)} of {len(runs)}",
             "known problems that were looked at": str(len(settings.problem)),
             "tools by review of their known problems": reviews(settings),
         },
-        text=TEXT, tables=tuple(tables(settings, specs, found, report)),
+        text=TEXT,
+        tables=tuple(tables(settings, specs, found, report)),
         items=tuple(tool_item(one, settings, found, report) for one in settings.tool),
         files={"toolchain.lock.json": context.root / "tools/toolchain.lock.json"},
         problems=tuple(dict.fromkeys(problems)),
-    )  # fmt: skip
+    )

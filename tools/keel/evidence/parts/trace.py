@@ -68,17 +68,29 @@ def function_item(one: Function, traced: Traced) -> Item:
     if any(not verdict.good for verdict in own):
         state = "bad"
     facts = {
-        "file": f"{one.file}:{one.line}", "unit": unit_of(one.file),
+        "file": f"{one.file}:{one.line}",
+        "unit": unit_of(one.file),
         "traces": "by its callers" if one.helper else "by the clauses of its contract",
-    }  # fmt: skip
+    }
     above = one.callers if one.helper else ()
-    tests = [verdict.key for uid in one.requirements if not one.helper
-             for verdict in traced.verdicts.by_uid.get(uid, ()) if verdict.by == TEST]  # fmt: skip
+    tests = [
+        verdict.key
+        for uid in one.requirements
+        if not one.helper
+        for verdict in traced.verdicts.by_uid.get(uid, ())
+        if verdict.by == TEST
+    ]
     links = [f"requirement:{uid}" for uid in one.requirements]
     links += [f"function:{name}" for name in above]
     links += [verdict.key for verdict in own] + tests
-    return Item(kind="function", id=one.name, title=one.name, state=state, facts=facts,
-                links=tuple(dict.fromkeys(links)))  # fmt: skip
+    return Item(
+        kind="function",
+        id=one.name,
+        title=one.name,
+        state=state,
+        facts=facts,
+        links=tuple(dict.fromkeys(links)),
+    )
 
 
 def units_table(traced: Traced, mutants: Mutants) -> Table:
@@ -89,21 +101,35 @@ def units_table(traced: Traced, mutants: Mutants) -> Table:
         functions = [one for one in traced.trace.functions if unit_of(one.file) == unit]
         documents = [one for one in traced.trace.requirements.values() if one.document == unit]
         own = [one for one in traced.verdicts.every if one.unit == unit]
-        rows.append((
-            unit, str(len(documents)), str(sum(not one.helper for one in functions)),
-            str(sum(one.helper for one in functions)),
-            *(how_many(own, by) for by in (WP, CBMC, GAPPA, HARNESS, TEST)),
-            summed(mutants, [one.name for one in functions]),
-        ))  # fmt: skip
+        rows.append(
+            (
+                unit,
+                str(len(documents)),
+                str(sum(not one.helper for one in functions)),
+                str(sum(one.helper for one in functions)),
+                *(how_many(own, by) for by in (WP, CBMC, GAPPA, HARNESS, TEST)),
+                summed(mutants, [one.name for one in functions]),
+            )
+        )
     return Table(
         title="Units by kind of evidence",
-        columns=("unit", "low-level requirements", "functions offered", "static functions",
-                 "WP goals", "CBMC assertions", "Gappa bounds", "harnesses", "tests", "mutants"),
+        columns=(
+            "unit",
+            "low-level requirements",
+            "functions offered",
+            "static functions",
+            "WP goals",
+            "CBMC assertions",
+            "Gappa bounds",
+            "harnesses",
+            "tests",
+            "mutants",
+        ),
         rows=tuple(rows),
         note="CBMC's built-in checks are counted with each harness, not here. Tests are those of"
-             " suites that bear the unit's name. Where no mutants stand, no report on them speaks"
-             " of this tree.",
-    )  # fmt: skip
+        " suites that bear the unit's name. Where no mutants stand, no report on them speaks"
+        " of this tree.",
+    )
 
 
 def requirement_row(one: Requirement, traced: Traced, mutants: Mutants) -> tuple[str, ...]:
@@ -116,10 +142,14 @@ def requirement_row(one: Requirement, traced: Traced, mutants: Mutants) -> tuple
         " ".join(f"requirement:{uid}" for uid in one.parents) or "derived",
         " ".join(dict.fromkeys(one.clauses)),
         " ".join(f"function:{function.name}" for function in bearing),
-        how_many(own, WP), how_many(own, CBMC), how_many(own, GAPPA),
+        how_many(own, WP),
+        how_many(own, CBMC),
+        how_many(own, GAPPA),
         " ".join(verdict.key for verdict in own if verdict.by == HARNESS),
-        how_many(own, TEST), summed(mutants, below), traced.state[one.uid],
-    )  # fmt: skip
+        how_many(own, TEST),
+        summed(mutants, below),
+        traced.state[one.uid],
+    )
 
 
 def requirements_table(traced: Traced, mutants: Mutants) -> Table:
@@ -127,19 +157,33 @@ def requirements_table(traced: Traced, mutants: Mutants) -> Table:
     low = [one for one in traced.trace.requirements.values() if not one.high]
     return Table(
         title="Low-level requirements by kind of evidence",
-        columns=("requirement", "parents", "clauses", "functions", "WP goals", "CBMC assertions",
-                 "Gappa bounds", "harnesses", "tests", "mutants of these functions", "state"),
+        columns=(
+            "requirement",
+            "parents",
+            "clauses",
+            "functions",
+            "WP goals",
+            "CBMC assertions",
+            "Gappa bounds",
+            "harnesses",
+            "tests",
+            "mutants of these functions",
+            "state",
+        ),
         rows=tuple(requirement_row(one, traced, mutants) for one in low),
         note="Goals and assertions are those that bear the requirement's id; harnesses those with"
-             " such an assertion, or of a function that bears it. Requirements of boards are"
-             " tested; the functions of bsp are not traced one by one.",
-    )  # fmt: skip
+        " such an assertion, or of a function that bears it. Requirements of boards are"
+        " tested; the functions of bsp are not traced one by one.",
+    )
 
 
 def unstated(traced: Traced, report: dict[str, Any]) -> tuple[Table, list[str]]:
     """The clauses that no goal bears: left to CBMC, with the reason, or else by mistake."""
-    left = {function: why for unit in report.get("units", {}).values()
-            for function, why in unit["wp"]["not_by_wp"].items()}  # fmt: skip
+    left = {
+        function: why
+        for unit in report.get("units", {}).values()
+        for function, why in unit["wp"]["not_by_wp"].items()
+    }
     rows, problems = [], []
     for uid, one in traced.trace.requirements.items():
         for label in dict.fromkeys(one.clauses):
@@ -152,29 +196,38 @@ def unstated(traced: Traced, report: dict[str, Any]) -> tuple[Table, list[str]]:
             rows.append((f"requirement:{uid}", label, "; ".join(reasons)))
     table = Table(
         title="Clauses that bear no goal of their own",
-        columns=("requirement", "clause", "why not"), rows=tuple(rows),
+        columns=("requirement", "clause", "why not"),
+        rows=tuple(rows),
         note="Of these functions CBMC proves that they do what their models do, in every field."
-             " That the models keep these clauses is for a review.",
-    )  # fmt: skip
+        " That the models keep these clauses is for a review.",
+    )
     return table, problems
 
 
 def alone(traced: Traced) -> list[str]:
     """What stands alone in the tree, or has the name of something else."""
     names = Counter(one.name for one in traced.trace.functions)
-    twice = [f"{name}: {count} functions have this name, which the package cannot tell apart"
-             for name, count in names.items() if count > 1]  # fmt: skip
+    twice = [
+        f"{name}: {count} functions have this name, which the package cannot tell apart"
+        for name, count in names.items()
+        if count > 1
+    ]
     return sorted({*traced.trace.orphans, *twice})
 
 
 def without_harness(traced: Traced, report: dict[str, Any]) -> list[str]:
     """Functions of which no harness has a verdict, but for those that units.toml excepts."""
-    excepted = {name for unit in report.get("units", {}).values()
-                for name in unit["cbmc"]["without_harness"]}  # fmt: skip
+    excepted = {
+        name
+        for unit in report.get("units", {}).values()
+        for name in unit["cbmc"]["without_harness"]
+    }
     proved = {one.function for one in traced.verdicts.every if one.by == HARNESS}
-    return [f"function {one.name}: build/prove/report.json has no harness of it"
-            for one in traced.trace.functions
-            if report and not one.helper and one.name not in proved | excepted]  # fmt: skip
+    return [
+        f"function {one.name}: build/prove/report.json has no harness of it"
+        for one in traced.trace.functions
+        if report and not one.helper and one.name not in proved | excepted
+    ]
 
 
 def second_look(context: Context, traced: Traced, problems: list[str]) -> dict[str, Path]:
@@ -202,16 +255,20 @@ def make(context: Context) -> Part:
     mutants = mutants_of(context, sorted({unit_of(one.file) for one in trace.functions}))
     counts = Counter(verdict.by for verdict in traced.verdicts.every if verdict.uids)
     return Part(
-        name="trace", title="Traceability", text=TEXT,
+        name="trace",
+        title="Traceability",
+        text=TEXT,
         summary={
             "requirements": str(len(trace.requirements)),
             "functions": str(len(trace.functions)),
             "clauses": str(trace.clauses),
             "orphans": str(len(trace.orphans)),
-            **{f"with a requirement's id: {by}": str(count)
-               for by, count in sorted(counts.items())},
+            **{
+                f"with a requirement's id: {by}": str(count) for by, count in sorted(counts.items())
+            },
         },
         tables=(units_table(traced, mutants), requirements_table(traced, mutants), open_clauses),
         items=tuple({one.name: function_item(one, traced) for one in trace.functions}.values()),
-        files=files, problems=tuple(trouble),
-    )  # fmt: skip
+        files=files,
+        problems=tuple(trouble),
+    )

@@ -34,9 +34,13 @@ class Site:
     """The pages of one package."""
 
     def __init__(
-        self, folder: Path, made: Assembled, stamp: Mapping[str, str], seconds: int,
+        self,
+        folder: Path,
+        made: Assembled,
+        stamp: Mapping[str, str],
+        seconds: int,
         took: Mapping[str, measured.Measured],
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.folder = folder
         self.made = made
         self.took = took
@@ -44,14 +48,24 @@ class Site:
         self.places = addresses(made.entries)
         self.tracer = Tracer(self.model, self.places, BELOW)
         self.pages = Environment(
-            loader=FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True,
-            lstrip_blocks=True, undefined=StrictUndefined,
-        )  # fmt: skip
+            loader=FileSystemLoader(HERE / "templates"),
+            autoescape=True,
+            trim_blocks=True,
+            lstrip_blocks=True,
+            undefined=StrictUndefined,
+        )
         kinds = {kind: plural(kind) for kind in by_kind(made.entries.values())}
         self.pages.globals.update(
-            made=made, stamp=stamp, time=day(seconds), kinds=kinds, plural=plural, count=count,
-            model=self.model, slug=slug, part_names={p.name: p.title for p in made.parts},
-        )  # fmt: skip
+            made=made,
+            stamp=stamp,
+            time=day(seconds),
+            kinds=kinds,
+            plural=plural,
+            count=count,
+            model=self.model,
+            slug=slug,
+            part_names={p.name: p.title for p in made.parts},
+        )
         self.pages.filters["paragraphs"] = lambda text: text.strip().split("\n\n")
 
     def write(self) -> None:
@@ -61,11 +75,17 @@ class Site:
         write_text(self.folder / PLACE / "search.js", self._search())
         self._page("index.html", "index.html", "", matrix=self.model.matrix(), kinds_of=IN_MATRIX)
         for part in self.made.parts:
-            self._page("part.html", f"{PLACE}/part-{slug(part.name)}.html", BELOW, part=part,
-                       parted=by_kind(self._of(part)))  # fmt: skip
+            self._page(
+                "part.html",
+                f"{PLACE}/part-{slug(part.name)}.html",
+                BELOW,
+                part=part,
+                parted=by_kind(self._of(part)),
+            )
         for kind, entries in by_kind(self.made.entries.values()).items():
-            self._page("kind.html", f"{PLACE}/all-{plural(kind)}.html", BELOW, kind=kind,
-                       entries=entries)  # fmt: skip
+            self._page(
+                "kind.html", f"{PLACE}/all-{plural(kind)}.html", BELOW, kind=kind, entries=entries
+            )
         self._traces()
         self._things()
         self._times()
@@ -79,8 +99,9 @@ class Site:
         self._page("trace.html", f"{PLACE}/graph.html", BELOW, unit="", drawn=drawn)
         for unit in self.model.units:
             drawn = Markup(self.tracer.of_unit(unit))
-            self._page("trace.html", f"{PLACE}/trace-{slug(unit)}.html", BELOW, unit=unit,
-                       drawn=drawn)  # fmt: skip
+            self._page(
+                "trace.html", f"{PLACE}/trace-{slug(unit)}.html", BELOW, unit=unit, drawn=drawn
+            )
 
     def _things(self) -> None:
         """A page for each thing, or for each group of them."""
@@ -89,17 +110,25 @@ class Site:
             if group := group_of(key):
                 groups.setdefault(group, []).append(entry)
             elif entry.kind != "part":  # Its page is made above.
-                self._page("thing.html", self.places[key].page, BELOW, entry=entry,
-                           related=self.model.related(entry),
-                           drawn=Markup(self.tracer.around(entry)))  # fmt: skip
+                self._page(
+                    "thing.html",
+                    self.places[key].page,
+                    BELOW,
+                    entry=entry,
+                    related=self.model.related(entry),
+                    drawn=Markup(self.tracer.around(entry)),
+                )
         for group, entries in groups.items():
             page = self.places[entries[0].key].page
             self._page("group.html", page, BELOW, group=group, entries=entries)
 
     def _times(self) -> None:
         """What was measured, the longest first: the one page that is not the same every time."""
-        rows = {name: sorted(took.items(), key=lambda one: (-one[1], one[0]))
-                for name, took in self.took.items() if took}  # fmt: skip
+        rows = {
+            name: sorted(took.items(), key=lambda one: (-one[1], one[0]))
+            for name, took in self.took.items()
+            if took
+        }
         self._page("measured.html", measured.PAGE, BELOW, rows=rows, file=measured.FILE)
 
     def _page(self, template: str, page: str, root: str, **facts: Any) -> None:
@@ -126,14 +155,19 @@ class Site:
 
     def _search(self) -> str:
         """What can be found: kind, id, title and address of each thing."""
-        found = [[entry.kind, entry.id, entry.title, self.places[key].seen_from("")]
-                 for key, entry in self.made.entries.items()]  # fmt: skip
+        found = [
+            [entry.kind, entry.id, entry.title, self.places[key].seen_from("")]
+            for key, entry in self.made.entries.items()
+        ]
         return f"window.found({json.dumps(found, ensure_ascii=False, separators=(',', ':'))});\n"
 
 
 def write_site(
-    folder: Path, made: Assembled, stamp: Mapping[str, str], seconds: int,
+    folder: Path,
+    made: Assembled,
+    stamp: Mapping[str, str],
+    seconds: int,
     took: Mapping[str, measured.Measured],
-) -> None:  # fmt: skip
+) -> None:
     """Write the site of what was assembled, and of the seconds that each part measured."""
     Site(folder, made, stamp, seconds, took).write()

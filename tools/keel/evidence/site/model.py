@@ -10,8 +10,22 @@ from dataclasses import dataclass
 from keel.evidence.assemble import KINDS, Assembled, Entry
 
 # What a reader of one thing looks for, in this order.
-ORDER = ("requirement", "unit", "function", "goal", "harness", "test", "mutant", "assumption",
-         "constraint", "deviation", "objective", "tool", "image", "file")  # fmt: skip
+ORDER = (
+    "requirement",
+    "unit",
+    "function",
+    "goal",
+    "harness",
+    "test",
+    "mutant",
+    "assumption",
+    "constraint",
+    "deviation",
+    "objective",
+    "tool",
+    "image",
+    "file",
+)
 IN_MATRIX = ("requirement", "function", "goal", "harness", "test", "mutant", "deviation")
 
 

@@ -88,8 +88,12 @@ class Tracer:
         single = [one for one in members if one.kind in ONE_BY_ONE]
         keys = {one.key for one in single}
         nodes = [self._node(one, COLUMNS[one.kind]) for one in single]
-        edges = [(start, end) for end in keys for start in self.model.entries[end].near
-                 if start in keys and COLUMNS[kind_of(start)] < COLUMNS[kind_of(end)]]  # fmt: skip
+        edges = [
+            (start, end)
+            for end in keys
+            for start in self.model.entries[end].near
+            if start in keys and COLUMNS[kind_of(start)] < COLUMNS[kind_of(end)]
+        ]
         more, others = self._bundles(members, keys)
         return draw([*nodes, *more], [*sorted(edges), *others], f"The trace of {unit}")
 

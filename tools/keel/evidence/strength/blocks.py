@@ -76,8 +76,9 @@ def pointer_calls(root: Path) -> dict[str, list[str]]:
             begin, end = (text.count("\n", 0, place) for place in function.body or (0, 0))
             found.setdefault(function.name, []).extend(
                 f"{path.relative_to(root).as_posix()}:{number + 1}"
-                for number in range(begin, end + 1) if POINTER_CALL.search(lines[number])
-            )  # fmt: skip
+                for number in range(begin, end + 1)
+                if POINTER_CALL.search(lines[number])
+            )
     return found
 
 
@@ -104,9 +105,12 @@ def covered_by(functions: Sequence[str], harnesses: Sequence[Bounded]) -> dict[s
 
 
 def problems(
-    report: Report, harnesses: Sequence[Bounded], functions: Sequence[str],
-    reasons: Sequence[Unreached], calls: Mapping[str, Sequence[str]],
-) -> Iterator[str]:  # fmt: skip
+    report: Report,
+    harnesses: Sequence[Bounded],
+    functions: Sequence[str],
+    reasons: Sequence[Unreached],
+    calls: Mapping[str, Sequence[str]],
+) -> Iterator[str]:
     """A block or a function that nobody reaches without a reason, and a reason without these."""
     blocks = {one.harness: one.blocks for one in reasons if one.harness}
     for one in harnesses:
@@ -114,8 +118,10 @@ def problems(
             yield f"{FILE}: {one.id}: nothing that it covers calls through a pointer"
         seen, given = missing(report, one), blocks.pop(one.id, 0)
         if seen != given:
-            yield (f"harness {one.id}: does not reach {seen} blocks of what it covers, and {FILE}"
-                   f" has a reason for {given}")  # fmt: skip
+            yield (
+                f"harness {one.id}: does not reach {seen} blocks of what it covers, and {FILE}"
+                f" has a reason for {given}"
+            )
     yield from (f"{FILE}: there is no harness {name}" for name in blocks)
     excused = {one.function for one in reasons if one.function}
     for name, by in covered_by(functions, harnesses).items():
@@ -127,34 +133,45 @@ def problems(
 
 
 def tables(
-    harnesses: Sequence[Bounded], functions: Mapping[str, str],
-    reasons: Sequence[Unreached], calls: Mapping[str, Sequence[str]],
-) -> Iterator[Shown]:  # fmt: skip
+    harnesses: Sequence[Bounded],
+    functions: Mapping[str, str],
+    reasons: Sequence[Unreached],
+    calls: Mapping[str, Sequence[str]],
+) -> Iterator[Shown]:
     """What each function is reached by, and what is not reached."""
     places = {one.id: "; ".join(places_of(one, calls)) for one in harnesses}
     rows = [
         (f"unit:{functions[name]}", name, "; ".join(f"harness:{one}" for one in by) or "nobody")
         for name, by in covered_by(list(functions), harnesses).items()
-    ]  # fmt: skip
+    ]
     yield Shown(
         title="Functions, and the harnesses that reach every block of them",
-        columns=("unit", "function", "reached by"), rows=tuple(rows),
+        columns=("unit", "function", "reached by"),
+        rows=tuple(rows),
         note=f"Models ({MODELS}) that a harness covers are reached, too, but are not listed.",
-    )  # fmt: skip
+    )
     yield Shown(
         title="Blocks that a harness does not reach",
         columns=("harness", "blocks", "all at these calls through a pointer", "reason"),
-        rows=tuple((f"harness:{one.harness}" if one.harness else one.function, str(one.blocks),
-                    places.get(one.harness, ""), " ".join(one.reason.split())) for one in reasons),
+        rows=tuple(
+            (
+                f"harness:{one.harness}" if one.harness else one.function,
+                str(one.blocks),
+                places.get(one.harness, ""),
+                " ".join(one.reason.split()),
+            )
+            for one in reasons
+        ),
         note="All other blocks of what a harness covers are reached, and each of these lines, too:"
-             " CBMC has found an execution through each. make prove fails on an unreached block"
-             " that stands elsewhere. That is a check against contradictory assumptions.",
-    )  # fmt: skip
+        " CBMC has found an execution through each. make prove fails on an unreached block"
+        " that stands elsewhere. That is a check against contradictory assumptions.",
+    )
 
 
 def summary(report: Report) -> str:
     """Reached blocks, of all."""
     units = report.get("units", {}).values()
-    found = [harness["coverage"] for unit in units
-             for harness in unit["cbmc"]["harnesses"].values()]  # fmt: skip
+    found = [
+        harness["coverage"] for unit in units for harness in unit["cbmc"]["harnesses"].values()
+    ]
     return f"{sum(one['reached'] for one in found)} of {sum(one['blocks'] for one in found)}"

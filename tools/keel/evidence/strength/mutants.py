@@ -52,8 +52,10 @@ def problems(every: Sequence[Standing]) -> Iterator[str]:
         if ours := [name for name in one.stale if name in OURS]:
             yield f"{one.shown}: is stale, {', '.join(ours)} changed since: make mutate again"
         for mutant in unexplained(one):
-            yield (f"{one.shown}: {mutant.function}:{mutant.line}: {mutant.status},"
-                   f" unexplained: {change(mutant)}")  # fmt: skip
+            yield (
+                f"{one.shown}: {mutant.function}:{mutant.line}: {mutant.status},"
+                f" unexplained: {change(mutant)}"
+            )
         if one.record:
             yield from (f"{one.shown}: {text}" for text in one.record.problems)
 
@@ -73,27 +75,34 @@ def items(every: Sequence[Standing]) -> Iterator[Item]:
         killed = one.record.killed
         state: State = "bad" if one.record.open else "good"
         yield Item(
-            kind="mutant", id=f"{one.unit}/result", title=f"{one.unit}: result of mutation",
+            kind="mutant",
+            id=f"{one.unit}/result",
+            title=f"{one.unit}: result of mutation",
             text=f"{killed.total} of {one.record.counted} mutants that make a difference are"
-                 " killed.",
+            " killed.",
             state=state if one.current else "open",
             facts={
-                "result": one.how, "killed by executing harnesses": str(killed.executed),
-                "killed by CBMC": str(killed.solved), "killed by WP": str(killed.wp),
+                "result": one.how,
+                "killed by executing harnesses": str(killed.executed),
+                "killed by CBMC": str(killed.solved),
+                "killed by WP": str(killed.wp),
                 "harnesses that killed": ", ".join(one.record.killers),
                 "of the same object code": str(one.record.same),
                 "make no difference, with a reason": str(len(one.record.accepted)),
                 "do not compile": str(one.record.stillborn),
             },
             links=(f"unit:{one.unit}",),
-        )  # fmt: skip
+        )
         for number, mutant in enumerate(unexplained(one), 1):
             yield Item(
-                kind="mutant", id=f"{one.unit}/survivor-{number}",
-                title=f"{mutant.function}:{mutant.line}", text=change(mutant),
+                kind="mutant",
+                id=f"{one.unit}/survivor-{number}",
+                title=f"{mutant.function}:{mutant.line}",
+                text=change(mutant),
                 state="bad" if one.current else "open",
-                facts={"verdict": mutant.status, "result": one.how}, links=(f"unit:{one.unit}",),
-            )  # fmt: skip
+                facts={"verdict": mutant.status, "result": one.how},
+                links=(f"unit:{one.unit}",),
+            )
 
 
 def score(every: Sequence[Standing]) -> str:
@@ -106,17 +115,21 @@ def numbers(every: Sequence[Standing]) -> tuple[str, ...]:
     """The cells of some results in the table of mutants, from the score on."""
     records = [one.record for one in every if one.record]
     sums = (
-        sum(one.killed.by_harnesses for one in records), sum(one.killed.wp for one in records),
-        sum(one.equivalent for one in records), sum(len(one.open) for one in records),
-    )  # fmt: skip
+        sum(one.killed.by_harnesses for one in records),
+        sum(one.killed.wp for one in records),
+        sum(one.equivalent for one in records),
+        sum(len(one.open) for one in records),
+    )
     return (score(every), *map(str, sums))
 
 
 def table(every: Sequence[Standing]) -> Table:
     """A line for each unit, and one for all results that are current."""
     current = [one for one in every if one.current]
-    rows = [(f"unit:{one.unit}", one.how, *(numbers([one]) if one.record else [""] * 5))
-            for one in every]  # fmt: skip
+    rows = [
+        (f"unit:{one.unit}", one.how, *(numbers([one]) if one.record else [""] * 5))
+        for one in every
+    ]
     rows.append(
         ("all that are current", f"{len(current)} of {len(every)} units", *numbers(current))
     )
@@ -125,24 +138,30 @@ def table(every: Sequence[Standing]) -> Table:
         columns=("unit", "result", "killed", "by CBMC", "by WP", "make no difference", "open"),
         rows=tuple(rows),
         note="Counted are mutants that compile and make a difference. By CBMC is by a"
-             " counterexample to one of its harnesses, by executing it or by a solver. WP is asked"
-             " for what CBMC does not notice in little time, so these are not two independent"
-             " scores. A unit whose mutants were not run shows nothing about the strength of its"
-             " proofs.",
-    )  # fmt: skip
+        " counterexample to one of its harnesses, by executing it or by a solver. WP is asked"
+        " for what CBMC does not notice in little time, so these are not two independent"
+        " scores. A unit whose mutants were not run shows nothing about the strength of its"
+        " proofs.",
+    )
 
 
 def survivors(every: Sequence[Standing]) -> Table:
     """Each mutant that nobody notices, with the reason that a person gave."""
     rows = [
-        (f"unit:{one.unit}", f"{mutant.function}:{mutant.line}", change(mutant), mutant.status,
-         mutant.reason)
+        (
+            f"unit:{one.unit}",
+            f"{mutant.function}:{mutant.line}",
+            change(mutant),
+            mutant.status,
+            mutant.reason,
+        )
         for one in every
         for mutant in one.survivors
-    ]  # fmt: skip
+    ]
     return Table(
-        title="Survivors, adjudicated", columns=("unit", "place", "change", "verdict", "reason"),
+        title="Survivors, adjudicated",
+        columns=("unit", "place", "change", "verdict", "reason"),
         rows=tuple(rows),
         note="Those that compile to the same object code are left out here, and counted above. So"
-             " are the reasons of a unit whose proofs have changed since its result.",
-    )  # fmt: skip
+        " are the reasons of a unit whose proofs have changed since its result.",
+    )

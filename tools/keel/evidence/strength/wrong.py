@@ -19,8 +19,10 @@ Report = Mapping[str, Any]
 COMMENT = re.compile(r"^#(?: (?!\w+: )(.*))?$", re.MULTILINE)
 # Where the report says nothing, the report is what is wrong, and not each mistake.
 VERDICTS: Mapping[bool | None, tuple[str, State]] = {
-    True: ("refused", "good"), False: ("not refused", "bad"), None: ("no verdict", "open"),
-}  # fmt: skip
+    True: ("refused", "good"),
+    False: ("not refused", "bad"),
+    None: ("no verdict", "open"),
+}
 EXPECTED = re.compile(r"^# expect: *(\S+)", re.MULTILINE)
 
 
@@ -54,16 +56,24 @@ def read_mistakes(root: Path, report: Report) -> list[Mistake]:
         bodies = said.get("cbmc", {}).get("negative", {}).get("list", {})
         bounds = said.get("gappa", {}).get("negative", {}).get("list", {})
         for wrong in read_wrong_bodies(unit):
-            found.append(Mistake(
-                unit.name, wrong.name, wrong.description,
-                f"harness:{unit.name}/{wrong.harness}", ", ".join(wrong.expect),
-                bodies.get(wrong.name),
-            ))  # fmt: skip
+            found.append(
+                Mistake(
+                    unit.name,
+                    wrong.name,
+                    wrong.description,
+                    f"harness:{unit.name}/{wrong.harness}",
+                    ", ".join(wrong.expect),
+                    bodies.get(wrong.name),
+                )
+            )
         for path in unit.wrong_statements:
             text = read_text(path)
             expected = ", ".join(EXPECTED.findall(text))
-            found.append(Mistake(unit.name, path.stem, mistake_in(text), "Gappa", expected,
-                                 bounds.get(path.name)))  # fmt: skip
+            found.append(
+                Mistake(
+                    unit.name, path.stem, mistake_in(text), "Gappa", expected, bounds.get(path.name)
+                )
+            )
     return found
 
 
@@ -84,18 +94,24 @@ def items(every: list[Mistake]) -> Iterator[Item]:
         harness = (one.by,) if one.by.startswith("harness:") else ()
         verdict, state = VERDICTS[one.refused]
         yield Item(
-            kind="mutant", id=one.id, title=f"{one.unit}: {one.name.replace('_', ' ')}",
-            text=one.mistake, state=state,
+            kind="mutant",
+            id=one.id,
+            title=f"{one.unit}: {one.name.replace('_', ' ')}",
+            text=one.mistake,
+            state=state,
             facts={"must fail": one.expected, "verdict": verdict},
             links=(f"unit:{one.unit}", *harness),
-        )  # fmt: skip
+        )
 
 
 def table(every: list[Mistake]) -> Table:
     """All mistakes."""
-    rows = tuple((f"mutant:{one.id}", one.mistake, one.by, one.expected,
-                  VERDICTS[one.refused][0]) for one in every)  # fmt: skip
+    rows = tuple(
+        (f"mutant:{one.id}", one.mistake, one.by, one.expected, VERDICTS[one.refused][0])
+        for one in every
+    )
     return Table(
-        title="Mistakes made on purpose", rows=rows,
+        title="Mistakes made on purpose",
+        rows=rows,
         columns=("wrong body", "mistake", "refused by", "what must fail", "verdict"),
     )

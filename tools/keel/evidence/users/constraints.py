@@ -40,10 +40,22 @@ def make(context: Context) -> Part:
     problems = [f"{uid}: {FILE} does not say how it is kept" for uid in owned if uid not in answers]
     problems += [f"{uid}: there is no such constraint" for uid in answers if uid not in asked]
     items = tuple(
-        Item(kind="constraint", id=uid, title=asked[uid].title, text=how, state="good",
-             facts=asked[uid].facts)
-        for uid, how in answers.items() if uid in asked
-    )  # fmt: skip
-    return Part(name="constraints", title="Constraints of Keel's safety manual", text=TEXT,
-                items=items, summary={"constraints kept": str(len(items))},
-                problems=tuple(problems))  # fmt: skip
+        Item(
+            kind="constraint",
+            id=uid,
+            title=asked[uid].title,
+            text=how,
+            state="good",
+            facts=asked[uid].facts,
+        )
+        for uid, how in answers.items()
+        if uid in asked
+    )
+    return Part(
+        name="constraints",
+        title="Constraints of Keel's safety manual",
+        text=TEXT,
+        items=items,
+        summary={"constraints kept": str(len(items))},
+        problems=tuple(problems),
+    )

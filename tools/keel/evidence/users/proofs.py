@@ -26,11 +26,14 @@ def function_of(goal: str, functions: Sequence[str]) -> tuple[str, ...]:
 def goals(unit: str, report: Mapping[str, Any], functions: Sequence[str]) -> Iterator[Item]:
     """WP's goals."""
     for goal in report["wp"]["goal_list"]:
-        yield Item(kind="goal", id=f"{unit}/{goal['name']}", title=goal["name"],
-                   state="good" if goal["status"] == "Valid" else "bad",
-                   facts={"prover": goal["prover"]},
-                   links=(f"unit:{unit}", *function_of(goal["name"], functions),
-                          *links_of(goal["name"])))  # fmt: skip
+        yield Item(
+            kind="goal",
+            id=f"{unit}/{goal['name']}",
+            title=goal["name"],
+            state="good" if goal["status"] == "Valid" else "bad",
+            facts={"prover": goal["prover"]},
+            links=(f"unit:{unit}", *function_of(goal["name"], functions), *links_of(goal["name"])),
+        )
 
 
 def harnesses(
@@ -42,23 +45,33 @@ def harnesses(
         head, covers = HEAD.match(text), COVERS.search(text)
         covered = [one for one in covers[1].split() if one in functions] if covers else []
         key = f"{unit}/{name}"
-        yield Item(kind="harness", id=key, title=name, text=head[0] if head else "",
-                   state="good" if found["sound"] else "bad",
-                   facts={"properties": f"{found['proved']} of {found['properties']} proved"},
-                   links=(f"unit:{unit}", *(f"function:{one}" for one in covered)))  # fmt: skip
+        yield Item(
+            kind="harness",
+            id=key,
+            title=name,
+            text=head[0] if head else "",
+            state="good" if found["sound"] else "bad",
+            facts={"properties": f"{found['proved']} of {found['properties']} proved"},
+            links=(f"unit:{unit}", *(f"function:{one}" for one in covered)),
+        )
         for one in found["assertions"]:
-            yield Item(kind="goal", id=f"{key}/{one['name'].rpartition('.')[2]}",
-                       title=one["description"], facts={"prover": "CBMC"},
-                       state="good" if one["status"] == "SUCCESS" else "bad",
-                       links=(f"harness:{key}", *links_of(one["description"])))  # fmt: skip
+            yield Item(
+                kind="goal",
+                id=f"{key}/{one['name'].rpartition('.')[2]}",
+                title=one["description"],
+                facts={"prover": "CBMC"},
+                state="good" if one["status"] == "SUCCESS" else "bad",
+                links=(f"harness:{key}", *links_of(one["description"])),
+            )
 
 
 def make(context: Context) -> Part:
     """All units."""
     problems: list[str] = []
     report = context.report("prove/report.json", problems)
-    functions = [one["function"] for unit in report.get("units", {}).values()
-                 for one in unit["determined"]]  # fmt: skip
+    functions = [
+        one["function"] for unit in report.get("units", {}).values() for one in unit["determined"]
+    ]
     items: list[Item] = []
     for unit in find_units(context.root):
         if unit in report.get("units", {}):
@@ -66,7 +79,15 @@ def make(context: Context) -> Part:
             items += goals(unit, own, functions)
             items += harnesses(context.root, unit, own, functions)
     problems += report.get("problems", ())
-    summary = {"verdict": report.get("verdict", "none"), "goals": str(report.get("goals", 0)),
-               "proved": str(report.get("proved", 0))}  # fmt: skip
-    return Part(name="proofs", title="Formal verification", items=tuple(items), summary=summary,
-                problems=tuple(problems))  # fmt: skip
+    summary = {
+        "verdict": report.get("verdict", "none"),
+        "goals": str(report.get("goals", 0)),
+        "proved": str(report.get("proved", 0)),
+    }
+    return Part(
+        name="proofs",
+        title="Formal verification",
+        items=tuple(items),
+        summary=summary,
+        problems=tuple(problems),
+    )

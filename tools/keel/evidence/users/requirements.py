@@ -37,9 +37,12 @@ def labels(context: Context, problems: list[str]) -> dict[str, set[str]]:
     tests = context.report("test/report.json", problems)
     units = proofs.get("units", {}).values()
     goals = [goal["name"] for unit in units for goal in unit["wp"]["goal_list"]]
-    asserted = [one["description"] for unit in units
-                for harness in unit["cbmc"]["harnesses"].values()
-                for one in harness["assertions"]]  # fmt: skip
+    asserted = [
+        one["description"]
+        for unit in units
+        for harness in unit["cbmc"]["harnesses"].values()
+        for one in harness["assertions"]
+    ]
     tested = [test for suite in tests.get("suites", {}).values() for test in suite]
     return {"proof": requirements_of(*goals, *asserted), "test": requirements_of(*tested)}
 
@@ -48,8 +51,9 @@ def orphans(known: set[str], named: dict[str, set[str]]) -> Iterator[str]:
     """Requirements that nothing shows, and labels of requirements that there are not."""
     for what, seen in named.items():
         yield from (f"{uid}: no {what} names it" for uid in sorted(known - seen))
-        yield from (f"{uid}: a {what} names it, but {FILE} does not have it"
-                    for uid in sorted(seen - known))  # fmt: skip
+        yield from (
+            f"{uid}: a {what} names it, but {FILE} does not have it" for uid in sorted(seen - known)
+        )
 
 
 def make(context: Context) -> Part:
@@ -60,7 +64,15 @@ def make(context: Context) -> Part:
     if not problems:
         problems += orphans({one.id for one in every}, named)
     state: State = "bad" if problems else "good"
-    items = tuple(Item(kind="requirement", id=one.id, title=one.title, text=one.text, state=state)
-                  for one in every)  # fmt: skip
-    return Part(name="requirements", title="Requirements", text=TEXT, items=items,
-                summary={"requirements": str(len(items))}, problems=tuple(problems))  # fmt: skip
+    items = tuple(
+        Item(kind="requirement", id=one.id, title=one.title, text=one.text, state=state)
+        for one in every
+    )
+    return Part(
+        name="requirements",
+        title="Requirements",
+        text=TEXT,
+        items=items,
+        summary={"requirements": str(len(items))},
+        problems=tuple(problems),
+    )

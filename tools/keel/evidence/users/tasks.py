@@ -22,10 +22,15 @@ def make(context: Context) -> Part:
     written = context.work / "analysis.json"
     write_json(written, analysis.report())
     rows = tuple(
-        (task.name, task.class_name, str(task.period), str(task.budget))
-        for task in tasks.tasks
-    )  # fmt: skip
+        (task.name, task.class_name, str(task.period), str(task.budget)) for task in tasks.tasks
+    )
     table = Table(title="Tasks", columns=("task", "class", "period, us", "budget, us"), rows=rows)
     problems = () if analysis.schedulable else tuple(f"{FILE}: {why}" for why in analysis.reasons)
-    return Part(name="tasks", title="Task table", tables=(table,), problems=problems,
-                files={written.name: written}, summary={"verdict": verdict(analysis)})  # fmt: skip
+    return Part(
+        name="tasks",
+        title="Task table",
+        tables=(table,),
+        problems=problems,
+        files={written.name: written},
+        summary={"verdict": verdict(analysis)},
+    )

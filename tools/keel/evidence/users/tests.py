@@ -12,9 +12,20 @@ def make(context: Context) -> Part:
     problems: list[str] = []
     suites = context.report("test/report.json", problems).get("suites", {})
     items = tuple(
-        Item(kind="test", id=f"unit/{suite}/{test}", title=why or test.replace("_", " "),
-             state="bad" if why else "good", links=links_of(test))
-        for suite, ran in suites.items() for test, why in ran.items()
-    )  # fmt: skip
-    return Part(name="tests", title="Tests", items=items, problems=tuple(problems),
-                summary={"tests": str(len(items))})  # fmt: skip
+        Item(
+            kind="test",
+            id=f"unit/{suite}/{test}",
+            title=why or test.replace("_", " "),
+            state="bad" if why else "good",
+            links=links_of(test),
+        )
+        for suite, ran in suites.items()
+        for test, why in ran.items()
+    )
+    return Part(
+        name="tests",
+        title="Tests",
+        items=items,
+        problems=tuple(problems),
+        summary={"tests": str(len(items))},
+    )
