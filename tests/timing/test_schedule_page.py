@@ -159,7 +159,8 @@ def test_the_colours_of_what_matters(shown: Browser) -> None:
         (task_number, time): shown.evaluate(
             "(() => { const one = document.getElementById('canvas'), at ="
             f" [x({time}), rowTop({task_number}) + rowHeight() / 2];"
-            " return [...one.getContext('2d').getImageData(at[0], at[1], 1, 1).data].slice(0, 3); })()"
+            " const data = one.getContext('2d').getImageData(at[0], at[1], 1, 1).data;"
+            " return [...data].slice(0, 3); })()"
         )
         for task_number, time in ((0, 12040), (1, 1250), (1, 7000), (1, 11500))
     }

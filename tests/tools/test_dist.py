@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of tools/keel dist: the same bytes twice, an archive that builds and proves, and refusals."""
+"""Tests of tools/keel dist: the same bytes twice, an archive that builds and proves, and
+refusals.
+"""
 
 from __future__ import annotations
 

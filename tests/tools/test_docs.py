@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the documents: what they name exists, what they link to is there, and all can be found."""
+"""Tests of the documents: what they name exists, what they link to is there, and all can be
+found.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of keel.analyse.eva: what is left of a contract, what is judged, and that Frama-C finds what
-is put into small programs.
+"""Tests of keel.analyse.eva: what is left of a contract, what is judged, and that Frama-C finds
+what is put into small programs.
 """
 
 from __future__ import annotations

@@ -77,8 +77,8 @@ class TraceTest(TracedProject):
         self.assertEqual(
             self.problems(make),
             [
-                "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a requirement's"
-                " id",
+                "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a"
+                " requirement's id",
                 "function keel_widget_stop: build/prove/report.json has no harness of it",
             ],
         )

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of `make prove ARGS='--explain NAME'`: what it says of goals, harnesses and wrong bodies."""
+"""Tests of `make prove ARGS='--explain NAME'`: what it says of goals, harnesses and wrong
+bodies.
+"""
 
 from __future__ import annotations
 

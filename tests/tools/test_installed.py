@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of what `cmake --install` leaves: clean projects that find Keel by CMake or by pkg-config."""
+"""Tests of what `cmake --install` leaves: clean projects that find Keel by CMake or by
+pkg-config.
+"""
 
 from __future__ import annotations
 

@@ -183,7 +183,9 @@ class Signing(unittest.TestCase):
         """FIPS 180-4's examples."""
         expected = {
             b"abc": "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad",
-            b"abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq": "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1",
+            b"abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq": (
+                "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1"
+            ),
         }
         for text, digest in expected.items():
             out = (ctypes.c_ubyte * 32)()

@@ -290,7 +290,8 @@ class TraceTest(unittest.TestCase):
         self.assertEqual(
             self.orphans(),
             [
-                "HLR-001: VERIFICATION says proof, and none of its low-level requirements is proved",
+                "HLR-001: VERIFICATION says proof, and none of its low-level requirements is"
+                " proved",
                 "HLR-001: no low-level requirement has it as its parent, and it lists no tests",
                 "WID-001: it has no parent, and no DERIVED says why",
             ],
@@ -327,8 +328,8 @@ class TraceTest(unittest.TestCase):
         self.assertEqual(
             self.orphans(),
             [
-                "HLR-001: its SOURCE cites no equation, section, figure or table, and no DERIVED says"
-                " why"
+                "HLR-001: its SOURCE cites no equation, section, figure or table, and no DERIVED"
+                " says why"
             ],
         )
 
@@ -353,8 +354,8 @@ class TraceTest(unittest.TestCase):
         self.assertEqual(
             self.orphans(),
             [
-                "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a requirement's"
-                " id"
+                "src/rtos/widget.c: keel_widget_stop: no clause of its contract bears a"
+                " requirement's id"
             ],
         )
 
@@ -364,8 +365,8 @@ class TraceTest(unittest.TestCase):
         self.assertEqual(
             self.orphans(),
             [
-                "src/rtos/widget.c: keel_widget_turn: no clause of its contract bears a requirement's"
-                " id",
+                "src/rtos/widget.c: keel_widget_turn: no clause of its contract bears a"
+                " requirement's id",
                 "src/rtos/widget.c: nudge: not all of its callers trace to a requirement: push",
                 "src/rtos/widget.c: push: not all of its callers trace to a requirement:"
                 " keel_widget_turn",

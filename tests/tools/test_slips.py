@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the slips of thought that mutants are made of: each operator makes what it is to make."""
+"""Tests of the slips of thought that mutants are made of: each operator makes what it is to
+make.
+"""
 
 from __future__ import annotations
 

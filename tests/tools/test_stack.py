@@ -362,16 +362,15 @@ class FilesTest(unittest.TestCase):
 
     def test_bad_tables_are_refused(self) -> None:
         entry = '[[entry]]\nfunction = "reset"\n'
+        unexplained = '[[indirect]]\ncaller = "a"\ncalls = ["b"]'
+        indirect = '[[indirect]]\ncaller = "a"\ncalls = []\nreason = "r"\n'
         bad = {
             "": "toml: entry: is missing",
             "entry = []": "toml:1: entry: expected to have at least 1 item",
             entry + "[other]": "toml:3: other: unknown key",
             "tasks = [": "toml:1: no TOML: ",
-            entry
-            + '[[indirect]]\ncaller = "a"\ncalls = ["b"]': "toml:3: indirect number 1: reason: is missing",
-            entry
-            + '[[indirect]]\ncaller = "a"\ncalls = []\nreason = "r"\n'
-            * 2: "toml:8: indirect number 2: caller: a has two entries",
+            entry + unexplained: "toml:3: indirect number 1: reason: is missing",
+            entry + indirect * 2: "toml:8: indirect number 2: caller: a has two entries",
             '[[entry]]\nname = "reset"': "toml:1: entry reset: function: is missing",
         }
         for text, reason in bad.items():

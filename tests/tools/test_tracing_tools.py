@@ -50,8 +50,8 @@ class LobsterTest(TracedProject):
         self.assertEqual(
             self.complaints(),
             [
-                "LOBSTER: goal widget/keel_widget_turn_ensures_WID_001_turns: its verdict is: Timeout;"
-                " missing up reference"
+                "LOBSTER: goal widget/keel_widget_turn_ensures_WID_001_turns: its verdict is:"
+                " Timeout; missing up reference"
             ],
         )
 
@@ -83,8 +83,8 @@ class LobsterTest(TracedProject):
         self.assertEqual(
             self.complaints(),
             [
-                "LOBSTER: goal widget/keel_widget_turn_ensures_WID_009_turns: unknown tracing target"
-                " req WID-009; missing up reference"
+                "LOBSTER: goal widget/keel_widget_turn_ensures_WID_009_turns: unknown tracing"
+                " target req WID-009; missing up reference"
             ],
         )
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Earth's field by place, held against the World Magnetic Model and against what is published."""
+"""The Earth's field by place, held against the World Magnetic Model and against what is
+published.
+"""
 
 from __future__ import annotations
 

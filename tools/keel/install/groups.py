@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Python packages of a group: names and versions from pyproject.toml, files from packages.lock."""
+"""The Python packages of a group: versions from pyproject.toml, SHA-256 from packages.lock."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@
     python3 tools/keel mutate --unit queue                 # CBMC first, WP if CBMC does not notice
     python3 tools/keel mutate --unit queue --engine both   # each engine by itself
     python3 tools/keel mutate --unit queue --list          # the mutants, without trying them
-    python3 tools/keel mutate --status                     # results kept and had, and which are stale
+    python3 tools/keel mutate --status                     # results kept and had, which are stale
     python3 tools/keel mutate --record                     # keep the results in specs/mutation.toml
     python3 tools/keel mutate --unit sbus --confirm 1      # CBMC confirms all executions that kill
     DASK=tcp://host:8786 python3 tools/keel mutate         # on a Dask cluster (make mutate)

@@ -85,7 +85,7 @@ def refusal(tools: Toolchain, groups: Sequence[str]) -> str:
 
 
 def run_suite(suite: Suite, refused: str = "") -> Outcome:
-    """Run one suite; whatever keeps it from running, as a tool that it cannot have, is its failure."""
+    """Run one suite; whatever keeps it from running, such as a missing tool, is its failure."""
     began = time.monotonic()
     try:
         outcome = failure(suite, refused) if refused else suite.run()

@@ -196,8 +196,8 @@ def wrong_count(raw: RawTaskSet) -> Iterator[Mistake]:
         yield (
             ("task", capacity, "name"),
             (
-                f"expected at most {capacity} tasks, which the queue holds; `capacity` of [scheduler] "
-                "is for builds with another KEEL_QUEUE_CAPACITY"
+                f"expected at most {capacity} tasks, which the queue holds; `capacity` of "
+                "[scheduler] is for builds with another KEEL_QUEUE_CAPACITY"
             ),
         )
 

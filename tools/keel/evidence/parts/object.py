@@ -194,13 +194,14 @@ def make(context: Context) -> Part:
         for board in reports
         for file in (*FILES, "report.json")
     }
+    same = sum(row[2] != "DIFFER" for row in compared)
     return Part(
         name="object",
         title="Object code",
         summary={
             "images": ", ".join(reports),
             "digest of the source proved": product_of(context, PROVED),
-            "units with the same bits on host and target": f"{sum(row[2] != 'DIFFER' for row in compared)} of {len(compared)}",
+            "units with the same bits on host and target": f"{same} of {len(compared)}",
         },
         text=TEXT,
         tables=tuple(tables),
