@@ -9,6 +9,7 @@ Exit status: the sub-command's; 2 for a name that is none, or when its packages 
 
 from __future__ import annotations
 
+import ast
 import importlib
 import os
 import sys
@@ -22,6 +23,7 @@ from keel.install import Toolchain, ToolchainError
 TOOLS = Path(__file__).resolve().parents[2]
 READY = "KEEL_WITH"  # The group whose packages this process has.
 WITH = "with"
+HELP = ("", "help", "-h", "--help")
 
 
 @dataclass(frozen=True)
@@ -93,9 +95,31 @@ def start_with(group: str, program: Sequence[str]) -> int:
     os.execve(sys.executable, [sys.executable, *program], variables)
 
 
+def source_of(command: Command) -> Path:
+    """The file of a sub-command."""
+    return (TOOLS / command.module.replace(".", "/")).with_suffix(".py")
+
+
+def summary_of(command: Command) -> str:
+    """The first line of its description; the module is not imported, as it may lack packages."""
+    said = ast.get_docstring(ast.parse(source_of(command).read_text(encoding="utf-8"))) or ""
+    return said.partition("\n\n")[0].replace("\n", " ")
+
+
+def print_help() -> None:
+    """Every sub-command, a line each."""
+    print("usage: python3 tools/keel COMMAND [ARGUMENT ...]; COMMAND --help has its arguments\n")
+    for name, command in COMMANDS.items():
+        print(f"  {name:<16} {summary_of(command)}")
+    print(f"  {WITH:<16} Runs Python with the packages of a group: {WITH} GROUP PROGRAM")
+
+
 def main(arguments: Sequence[str]) -> int:
     """Entry point."""
     name, *words = arguments or [""]
+    if name in HELP:
+        print_help()
+        return 0
     if name == WITH:
         if len(words) < 2:
             print("usage: keel with GROUP PROGRAM [ARGUMENT ...]", file=sys.stderr)
