@@ -189,15 +189,7 @@ keel_bsp_status_t keel_invensense_ready(const keel_invensense_t *sensor, bool *r
     return status;
 }
 
-/* A number of two bytes, the most significant first, as two's complement. */
-static int16_t number_at(const uint8_t *byte)
-{
-    const int32_t value = ((int32_t)byte[0] * 256) + (int32_t)byte[1];
-
-    return (int16_t)((value > INT16_MAX) ? (value - 65536) : value);
-}
-
-keel_bsp_status_t keel_invensense_read(keel_invensense_t *sensor, keel_invensense_sample_t *sample)
+keel_bsp_status_t keel_invensense_read(keel_invensense_t *sensor, keel_inertial_sample_t *sample)
 {
     /* The rest of what is sent does not matter. */
     static const uint8_t out[TRANSFER_BYTES] = {[0] = REG_ACCEL_XOUT_H | READ};
@@ -215,11 +207,12 @@ keel_bsp_status_t keel_invensense_read(keel_invensense_t *sensor, keel_invensens
         return KEEL_BSP_STUCK;
     }
     for (uint32_t axis = 0u; axis < 3u; axis++) {
-        sample->acceleration[axis] = number_at(&data[2u * axis]);
-        sample->rate[axis] = number_at(&data[8u + (2u * axis)]);
+        sample->acceleration[axis] = keel_inertial_number(data[2u * axis], data[(2u * axis) + 1u]);
+        sample->rate[axis] = keel_inertial_number(data[8u + (2u * axis)], data[9u + (2u * axis)]);
     }
     sample->temperature_cdeg = (int16_t)(kind->zero_cdeg +
-                                         ((number_at(&data[6]) * kind->counts_cdeg) /
+                                         ((keel_inertial_number(data[6], data[7]) *
+                                           kind->counts_cdeg) /
                                           kind->counts));
     return KEEL_BSP_OK;
 }

@@ -13,6 +13,8 @@
 
 #include "common/bsp_status.h"
 #include "common/bus.h"
+#include "devices/inertial.h"
+#include "devices/registers.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -41,9 +43,6 @@ extern const keel_invensense_kind_t keel_icm20689; /**< ICM-20689. */
 extern const keel_invensense_kind_t keel_icm20602; /**< ICM-20602. */
 extern const keel_invensense_kind_t keel_mpu6000;  /**< MPU-6000. */
 
-/** Waits; returns KEEL_BSP_OK, or why it could not. */
-typedef keel_bsp_status_t (*keel_delay_fn_t)(void *context, uint32_t time_us);
-
 /** A sensor. The caller owns it. */
 typedef struct keel_invensense {
     const keel_invensense_kind_t *kind; /**< Which it is. */
@@ -53,13 +52,6 @@ typedef struct keel_invensense {
     void *delay_context;                /**< Handed to delay; may be null. */
     keel_repeats_t repeats;             /**< Of samples; 0 at the start. */
 } keel_invensense_t;
-
-/** One sample, in the sensor's axes. */
-typedef struct keel_invensense_sample {
-    int16_t acceleration[3];  /**< 1 / 2048 g. */
-    int16_t temperature_cdeg; /**< Hundredths of a degree Celsius. */
-    int16_t rate[3];          /**< 1 / 16.4 degree per second. */
-} keel_invensense_sample_t;
 
 /**
  * Resets the sensor, makes sure that it is the one, and configures it; what is written is read back
@@ -99,6 +91,6 @@ keel_bsp_status_t keel_invensense_ready(const keel_invensense_t *sensor, bool *r
  *         again more than KEEL_INVENSENSE_REPEATS times; KEEL_BSP_TIMEOUT, KEEL_BSP_BUS or
  *         KEEL_BSP_SHORT; with sample as it was unless KEEL_BSP_OK
  */
-keel_bsp_status_t keel_invensense_read(keel_invensense_t *sensor, keel_invensense_sample_t *sample);
+keel_bsp_status_t keel_invensense_read(keel_invensense_t *sensor, keel_inertial_sample_t *sample);
 
 #endif

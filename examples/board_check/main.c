@@ -47,7 +47,7 @@ typedef struct imu {
     bool there;
     uint32_t samples;
     uint32_t failures;
-    keel_invensense_sample_t last;
+    keel_inertial_sample_t last;
 } imu_t;
 
 /* The channels of the ADC task, in this order; from the third on, the board's analogue pins. */

@@ -99,7 +99,7 @@ static void store_head(void)
 }
 
 /* Little-endian, as ULog and this processor have it. */
-static void store_sample(const keel_invensense_sample_t *sample, uint64_t now_us)
+static void store_sample(const keel_inertial_sample_t *sample, uint64_t now_us)
 {
     const int16_t values[SAMPLE_SHORTS] = {
         sample->acceleration[0],  sample->acceleration[1], sample->acceleration[2],
@@ -117,7 +117,7 @@ static void store_sample(const keel_invensense_sample_t *sample, uint64_t now_us
 
 KEEL_REALTIME_CODE static void imu_body(void *context)
 {
-    keel_invensense_sample_t sample;
+    keel_inertial_sample_t sample;
 
     (void)context;
     if (keel_invensense_read(keel_chip_sensor(), &sample) == KEEL_BSP_OK) {

@@ -195,7 +195,7 @@ static void ICM_005_an_error_is_no_answer(void)
 
 static void ICM_006_a_sample_is_one_burst(void)
 {
-    keel_invensense_sample_t sample;
+    keel_inertial_sample_t sample;
 
     for (uint32_t kind = 0u; kind < KINDS; kind++) {
         power_up(kind);
@@ -224,7 +224,7 @@ static void ICM_006_temperatures(void)
         start();
         for (uint32_t i = 0u; i < 6u; i++) {
             const int16_t number[7] = {1, 2, 3, raw[i], 4, 5, 6};
-            keel_invensense_sample_t sample;
+            keel_inertial_sample_t sample;
 
             simulated_invensense_sample(&sensor, number);
             TEST_ASSERT_EQUAL(KEEL_BSP_OK, keel_invensense_read(&device, &sample));
@@ -235,8 +235,8 @@ static void ICM_006_temperatures(void)
 
 static void read_refuses(keel_bsp_status_t status)
 {
-    keel_invensense_sample_t sample;
-    keel_invensense_sample_t before;
+    keel_inertial_sample_t sample;
+    keel_inertial_sample_t before;
 
     memset(&sample, 0x5A, sizeof sample);
     memcpy(&before, &sample, sizeof sample);
@@ -262,7 +262,7 @@ static void ICM_007_a_bad_read_changes_nothing(void)
 
 static void ICM_007_equal_bytes_alone_are_no_fault(void)
 {
-    keel_invensense_sample_t sample;
+    keel_inertial_sample_t sample;
 
     start();
     memset(&sensor.value[0x3B], 0x11, 14u);
@@ -303,7 +303,7 @@ static void ICM_008_it_is_still_the_one(void)
 
 static void ICM_009_samples_that_do_not_move(void)
 {
-    keel_invensense_sample_t sample;
+    keel_inertial_sample_t sample;
     int16_t number[7];
 
     start();

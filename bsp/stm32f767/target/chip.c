@@ -350,7 +350,7 @@ KEEL_REALTIME_CODE static float along(const int16_t value[], int8_t axis)
 
 KEEL_REALTIME_CODE keel_bsp_status_t keel_chip_motion(keel_chip_motion_t *motion)
 {
-    keel_invensense_sample_t sample;
+    keel_inertial_sample_t sample;
     const keel_bsp_status_t status = keel_invensense_read(keel_chip_sensor(), &sample);
 
     if (status == KEEL_BSP_OK) {
