@@ -15,12 +15,13 @@
 /* Not what the registers are after a reset: whatever they are, a driver must set what it needs. */
 void simulated_bmi055_brown_out(simulated_bmi055_part_t *part)
 {
-    memset(part->value, 0x5A, sizeof part->value);
-    part->value[POWER] = SUSPENDED | 0x0Au;
+    memset(part->value, part->fill, sizeof part->value);
+    part->value[POWER] = SUSPENDED | part->fill;
 }
 
 static void simulated_bmi055_power_up(simulated_bmi055_part_t *part)
 {
+    part->fill = 0x5Au;
     part->stays = -1;
     part->waited_us = part->starts_us;
     simulated_bmi055_brown_out(part);

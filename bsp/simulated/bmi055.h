@@ -24,6 +24,7 @@ typedef struct simulated_bmi055_part {
     simulated_faults_t faults;
     uint8_t value[SIMULATED_BMI055_REGISTERS];
     uint8_t identity;
+    uint8_t fill;            /**< What registers are after a reset. */
     uint8_t fixed_bandwidth; /**< The bits of the bandwidth's register that always read 1. */
     bool tells_new;          /**< Bit 0 of an axis's lower byte tells whether it was read. */
     int stays;               /**< This register does not take what is written, or -1. */

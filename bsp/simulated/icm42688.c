@@ -22,7 +22,7 @@ void simulated_icm42688_brown_out(simulated_icm42688_t *sensor)
     static const int16_t nothing[7] = {INT16_MIN, INT16_MIN, INT16_MIN, INT16_MIN,
                                        INT16_MIN, INT16_MIN, INT16_MIN};
 
-    memset(sensor->value, 0x5A, sizeof sensor->value);
+    memset(sensor->value, sensor->fill, sizeof sensor->value);
     simulated_icm42688_sample(sensor, nothing);
     sensor->value[0][DEVICE_CONFIG] = 0x00u;
     sensor->value[0][INT_STATUS] = RESET_DONE;
@@ -34,6 +34,7 @@ void simulated_icm42688_init(simulated_icm42688_t *sensor)
 {
     memset(sensor, 0, sizeof *sensor);
     sensor->identity = 0x47u;
+    sensor->fill = 0x5Au;
     sensor->stays = -1;
     sensor->waited_us = RESET_US;
     simulated_icm42688_brown_out(sensor);

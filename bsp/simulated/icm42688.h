@@ -26,6 +26,7 @@ typedef struct simulated_icm42688 {
     simulated_faults_t faults;
     uint8_t value[SIMULATED_ICM42688_BANKS][SIMULATED_ICM42688_REGISTERS];
     uint8_t identity;
+    uint8_t fill;        /**< What registers are after a reset. */
     uint32_t stays_bank; /**< A register that does not take what is written: its bank … */
     int stays;           /**< … and its address, or -1. */
     bool ignores_reset;

@@ -77,7 +77,7 @@ static void BMI_002_another_device_is_refused(void)
             setUp();
             part[which]->identity = other[which][i];
             TEST_ASSERT_EQUAL(KEEL_BSP_ID, keel_bmi055_start(&device));
-            TEST_ASSERT_EQUAL_HEX8(0x8Au, part[which]->value[0x11]); /* It was not configured. */
+            TEST_ASSERT_EQUAL_HEX8(0xDAu, part[which]->value[0x11]); /* It was not configured. */
         }
     }
 }
@@ -95,12 +95,12 @@ static void BMI_002_a_line_that_does_not_move(void)
     }
 }
 
-/* The simulation's registers are 0x5A before, and 0x8A (suspended) that of the power: what is not
+/* The simulation's registers are 0x5A before, and 0xDA (suspended) that of the power: what is not
  * set stays as it was. */
 static void BMI_003_the_gyroscope_is_configured(void)
 {
     start();
-    TEST_ASSERT_EQUAL_HEX8(0x0Au, sensor.gyroscope.value[0x11]); /* Bits 7 and 5: 0, awake. */
+    TEST_ASSERT_EQUAL_HEX8(0x5Au, sensor.gyroscope.value[0x11]); /* Bits 7 and 5: 0, awake. */
     TEST_ASSERT_EQUAL_HEX8(0x58u, sensor.gyroscope.value[0x0F]); /* 2:0: 000, 2000 deg/s. */
     TEST_ASSERT_EQUAL_HEX8(0xD2u, sensor.gyroscope.value[0x10]); /* 3:0: 0010, 1 kHz, 116 Hz. */
     TEST_ASSERT_EQUAL_HEX8(0x1Au, sensor.gyroscope.value[0x13]); /* 7, 6: 0, filtered, held. */
@@ -109,10 +109,26 @@ static void BMI_003_the_gyroscope_is_configured(void)
 static void BMI_003_the_accelerometer_is_configured(void)
 {
     start();
-    TEST_ASSERT_EQUAL_HEX8(0x0Au, sensor.accelerometer.value[0x11]); /* 7:5: 000, awake. */
+    TEST_ASSERT_EQUAL_HEX8(0x1Au, sensor.accelerometer.value[0x11]); /* 7:5: 000, awake. */
     TEST_ASSERT_EQUAL_HEX8(0x5Cu, sensor.accelerometer.value[0x0F]); /* 3:0: 1100, 16 g. */
     TEST_ASSERT_EQUAL_HEX8(0x4Eu, sensor.accelerometer.value[0x10]); /* 4:0: 01110, 500 Hz. */
     TEST_ASSERT_EQUAL_HEX8(0x1Au, sensor.accelerometer.value[0x13]); /* 7, 6: 0. */
+}
+
+/* The same where the registers are 0xA5 before: so each bit was 0 once, and 1 once. */
+static void BMI_003_whatever_the_registers_were(void)
+{
+    static const uint8_t address[4] = {0x11u, 0x0Fu, 0x10u, 0x13u};
+    static const uint8_t value[PARTS][4] = {{0x05u, 0xA0u, 0xA2u, 0x25u},
+                                            {0x05u, 0xACu, 0xAEu, 0x25u}};
+
+    sensor.gyroscope.fill = 0xA5u;
+    sensor.accelerometer.fill = 0xA5u;
+    start();
+    for (uint32_t i = 0u; i < 4u; i++) {
+        TEST_ASSERT_EQUAL_HEX8(value[0][i], sensor.gyroscope.value[address[i]]);
+        TEST_ASSERT_EQUAL_HEX8(value[1][i], sensor.accelerometer.value[address[i]]);
+    }
 }
 
 static void BMI_003_what_does_not_read_back_is_noticed(void)
@@ -254,7 +270,7 @@ static void BMI_007_it_is_still_the_one(void)
         TEST_ASSERT_EQUAL_UINT32(5u, sensor.accelerometer.faults.exchanges);
         simulated_bmi055_brown_out(part[which]);
         TEST_ASSERT_EQUAL(KEEL_BSP_VERIFY, keel_bmi055_check(&device));
-        TEST_ASSERT_EQUAL_HEX8(0x8Au, part[which]->value[0x11]); /* Nothing was written. */
+        TEST_ASSERT_EQUAL_HEX8(0xDAu, part[which]->value[0x11]); /* Nothing was written. */
         start();
         part[which]->value[0x0F] = 0x03u; /* Another range. */
         TEST_ASSERT_EQUAL(KEEL_BSP_VERIFY, keel_bmi055_check(&device));
@@ -266,7 +282,8 @@ static void BMI_007_it_is_still_the_one(void)
     }
 }
 
-/* The other part goes on moving; the accelerometer's bit that tells a new value does not count. */
+/* The other part goes on moving, and the temperature; the accelerometer's bit that tells a new value
+ * does not count. */
 static void BMI_008_samples_that_do_not_move(void)
 {
     for (uint32_t which = 0u; which < PARTS; which++) {
@@ -279,10 +296,12 @@ static void BMI_008_samples_that_do_not_move(void)
         memcpy(number[1], accelerations, sizeof accelerations);
         for (uint32_t again = 0u; again <= KEEL_BMI055_REPEATS; again++) {
             number[1u - which][0] = (int16_t)again;
+            sensor.accelerometer.value[0x08] = (uint8_t)again;
             simulated_bmi055_sample(&sensor, number[0], number[1]);
             TEST_ASSERT_EQUAL(KEEL_BSP_OK, keel_bmi055_read(&device, &sample));
         }
         number[1u - which][0]++;
+        sensor.accelerometer.value[0x08]++;
         simulated_bmi055_sample(&sensor, number[0], number[1]);
         read_refuses(KEEL_BSP_STUCK);
         read_refuses(KEEL_BSP_STUCK);
@@ -306,6 +325,7 @@ int main(void)
     RUN_TEST(BMI_002_a_line_that_does_not_move);
     RUN_TEST(BMI_003_the_gyroscope_is_configured);
     RUN_TEST(BMI_003_the_accelerometer_is_configured);
+    RUN_TEST(BMI_003_whatever_the_registers_were);
     RUN_TEST(BMI_003_what_does_not_read_back_is_noticed);
     RUN_TEST(BMI_004_an_error_of_the_bus_at_any_exchange);
     RUN_TEST(BMI_005_a_sample_is_a_burst_of_each);

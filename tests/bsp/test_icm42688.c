@@ -136,6 +136,27 @@ static void ICP_003_the_anti_alias_filters(void)
     TEST_ASSERT_EQUAL_HEX8(0xA0u, sensor.value[2][0x05]);
 }
 
+/* The same where the registers are 0xA5 before: so each bit was 0 once, and 1 once. */
+static void ICP_003_whatever_the_registers_were(void)
+{
+    static const struct {
+        uint32_t bank;
+        uint8_t address;
+        uint8_t value;
+    } is[15] = {
+        {0u, 0x14u, 0xA3u}, {0u, 0x4Cu, 0x37u}, {0u, 0x4Du, 0x61u}, {0u, 0x4Fu, 0x06u},
+        {0u, 0x50u, 0x06u}, {0u, 0x52u, 0x11u}, {0u, 0x64u, 0xA5u}, {0u, 0x65u, 0x88u},
+        {1u, 0x0Bu, 0xA4u}, {1u, 0x0Cu, 0x86u}, {1u, 0x0Du, 0x24u}, {1u, 0x0Eu, 0xA0u},
+        {2u, 0x03u, 0x8Au}, {2u, 0x04u, 0x19u}, {2u, 0x05u, 0xA0u},
+    };
+
+    sensor.fill = 0xA5u;
+    start();
+    for (uint32_t i = 0u; i < 15u; i++) {
+        TEST_ASSERT_EQUAL_HEX8(is[i].value, sensor.value[is[i].bank][is[i].address]);
+    }
+}
+
 static void ICP_003_what_does_not_read_back_is_noticed(void)
 {
     static const struct {
@@ -351,6 +372,7 @@ int main(void)
     RUN_TEST(ICP_003_it_is_configured);
     RUN_TEST(ICP_003_data_ready_is_told_at_a_pin);
     RUN_TEST(ICP_003_the_anti_alias_filters);
+    RUN_TEST(ICP_003_whatever_the_registers_were);
     RUN_TEST(ICP_003_what_does_not_read_back_is_noticed);
     RUN_TEST(ICP_004_an_error_of_the_bus_at_any_exchange);
     RUN_TEST(ICP_005_data_ready);
