@@ -12,7 +12,12 @@ from pathlib import Path
 from keel.install.lock import Lock
 
 # What these ask for, others have told them.
-TOLD = ("common/packages.py", "suites/running.py", "toolchain/command_line.py", "with_packages.py")
+TOLD = (
+    "keel/install/packages.py",
+    "keel/install/command.py",
+    "keel/test/suites.py",
+    "keel/cli/commands.py",
+)
 
 
 @cache

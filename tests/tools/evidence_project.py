@@ -31,8 +31,8 @@ from keel.base.source import STAMP, VERDICT, stamp_of
 from keel.boards.semantics import COMPILED_AS_PROVED
 from keel.evidence import command
 from keel.evidence.assemble import assemble
-from keel.evidence.part import Context
-from keel.evidence.parts import tools as part_tools
+from keel.gather.part import Context
+from keel.gather.parts import tools as part_tools
 from keel.install import Found, Toolchain
 from keel.install.lock import Spec
 
@@ -175,9 +175,9 @@ class WholeProject(unittest.TestCase):
             return {"cbmc": self.tool} if self.tool else {}
 
         for patch in (
-            mock.patch("keel.evidence.parts.requirements.written", return_value={}),
-            mock.patch("keel.evidence.parts.trace.second_look", return_value={}),
-            mock.patch("keel.evidence.parts.object.differences", return_value=[]),
+            mock.patch("keel.gather.parts.requirements.written", return_value={}),
+            mock.patch("keel.gather.parts.trace.second_look", return_value={}),
+            mock.patch("keel.gather.parts.object.differences", return_value=[]),
             mock.patch.object(part_tools, "VERSIONED", ("prove/report.json", "lint/report.json")),
             mock.patch.object(part_tools, "wanted", return_value={"cbmc": PINNED}),
             mock.patch.object(Toolchain, "versions", side_effect=versions),

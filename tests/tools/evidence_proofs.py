@@ -19,7 +19,7 @@ from copied_tree import CopiedTree
 
 from keel.base.source import STAMP
 from keel.c.project import Unit, find_units
-from keel.evidence.part import Context, Part
+from keel.gather.part import Context, Part
 from keel.judge.goals import read_goals
 from keel.judge.wrong_bodies import read_wrong_bodies
 

@@ -18,7 +18,7 @@ provide("evidence")
 from keel.base.source import STAMP as MADE_FROM
 from keel.evidence.assemble import Assembled, assemble
 from keel.evidence.package import Source
-from keel.evidence.part import Context, Item, Part, Table
+from keel.gather.part import Context, Item, Part, Table
 
 ROOT = Path(__file__).resolve().parents[2]
 

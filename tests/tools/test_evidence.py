@@ -39,8 +39,8 @@ from keel.evidence.package import (
     source_of,
     write_package,
 )
-from keel.evidence.part import Context, Item, Part, Table
 from keel.evidence.verify import reproduced, verify
+from keel.gather.part import Context, Item, Part, Table
 from keel.install import ToolchainError
 from keel.install.packages import provide
 
@@ -93,7 +93,7 @@ class Parts(InFolder):
         )
 
     def test_an_absent_part(self) -> None:
-        with self.assertRaisesRegex(ToolError, r"no tools/keel/evidence/parts/nonesuch\.py"):
+        with self.assertRaisesRegex(ToolError, r"no tools/keel/gather/parts/nonesuch\.py"):
             maker_of("nonesuch")
 
         def absent(_: Context) -> Part:
@@ -179,7 +179,7 @@ class Parts(InFolder):
         self.assertIn("harness:queue/keel_queue_init_harness", entry.back)
 
     def test_every_part_of_the_package_has_a_module(self) -> None:
-        there = {path.stem for path in (ROOT / "tools/keel/evidence/parts").glob("[a-z]*.py")}
+        there = {path.stem for path in (ROOT / "tools/keel/gather/parts").glob("[a-z]*.py")}
         self.assertLessEqual(there, set(PARTS))
 
 

@@ -15,10 +15,10 @@ from evidence_proofs import NOW, EvidenceTest
 from keel.base.source import STAMP
 from keel.base.verdict_cache import Cache
 from keel.c.project import find_units
-from keel.evidence import review, third_opinion
-from keel.evidence.formal import bounds, esbmc, ledger, opinion, reviews
-from keel.evidence.part import Item, Part
-from keel.evidence.parts import formal
+from keel.gather import review, third_opinion
+from keel.gather.formal import bounds, esbmc, ledger, opinion, reviews
+from keel.gather.part import Item, Part
+from keel.gather.parts import formal
 
 ROOT = Path(__file__).resolve().parents[2]
 

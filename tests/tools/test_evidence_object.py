@@ -22,7 +22,7 @@ from keel.boards import firmware
 from keel.boards.board import board_names
 from keel.boards.rebuilt import SOURCES, differences
 from keel.boards.semantics import COMPILED_AS_PROVED, flag_problems
-from keel.evidence.parts import object as part_object
+from keel.gather.parts import object as part_object
 from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -15,8 +15,8 @@ from evidence_sample import STAMP, context_in
 
 from keel.base.errors import ToolError
 from keel.base.files import sha256_of, write_text
-from keel.evidence.part import Context
-from keel.evidence.parts import configuration, contracts, objectives, plans, safety
+from keel.gather.part import Context
+from keel.gather.parts import configuration, contracts, objectives, plans, safety
 
 ROOT = Path(__file__).resolve().parents[2]
 

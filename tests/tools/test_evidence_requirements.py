@@ -6,7 +6,7 @@ from __future__ import annotations
 import test_requirements_trace as small
 from traced_project import STAMP, TracedProject
 
-from keel.evidence.parts.requirements import make
+from keel.gather.parts.requirements import make
 
 LOW = "specs/requirements/widget.sdoc"
 

@@ -12,7 +12,7 @@ from evidence_sample import STAMP, PartTest
 
 from keel.base.source import STAMP as MADE_FROM
 from keel.boards.board import board_names
-from keel.evidence.parts import static
+from keel.gather.parts import static
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -16,9 +16,9 @@ from evidence_proofs import EvidenceTest
 from keel.base.errors import ToolError
 from keel.base.source import STAMP
 from keel.c.project import Unit, find_units
-from keel.evidence.part import Item, Part
-from keel.evidence.parts import strength
-from keel.evidence.strength import mutants as recorded
+from keel.gather.part import Item, Part
+from keel.gather.parts import strength
+from keel.gather.strength import mutants as recorded
 from keel.mutate import command as mutate
 from keel.mutate import records as mutant_records
 from keel.mutate import table as mutant_table

@@ -11,7 +11,7 @@ from evidence_sample import STAMP, PartTest
 
 from keel.base.junit import JUnitSuite, write_junit
 from keel.base.source import STAMP as MADE_FROM
-from keel.evidence.parts import tests
+from keel.gather.parts import tests
 
 QUEUE, TEST = "unit/queue", "QUE_003_order"
 GAP = {"file": "src/x.c", "line": 3, "text": "return 1;", "what": "line not executed"}

@@ -19,9 +19,9 @@ from evidence_sample import STAMP, PartTest
 from keel.base.errors import ToolError
 from keel.base.source import PRODUCT
 from keel.base.source import STAMP as MADE_FROM
-from keel.evidence.part import Context
-from keel.evidence.parts import tools as part_tools
-from keel.evidence.parts.tools import SETTINGS, Settings
+from keel.gather.part import Context
+from keel.gather.parts import tools as part_tools
+from keel.gather.parts.tools import SETTINGS, Settings
 from keel.install import Found, Toolchain
 from keel.install.lock import Spec
 from keel.qualify import command as qualify

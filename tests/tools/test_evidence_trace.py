@@ -6,7 +6,7 @@ from __future__ import annotations
 import test_requirements_trace as small
 from traced_project import TracedProject
 
-from keel.evidence.parts.trace import make
+from keel.gather.parts.trace import make
 
 LOW = "specs/requirements/widget.sdoc"
 SOURCE = "src/rtos/widget.c"

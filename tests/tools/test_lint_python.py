@@ -73,3 +73,5 @@ class PythonRules(unittest.TestCase):
         (self.root / "pyproject.toml").unlink()
         self.write("tools/keel/low/a.py", "import os\n")
         self.assertEqual(self.found(), [])
+        lay_out(self.tools, self.root)
+        self.assertEqual((self.root / "tools/keel/low/a.py").read_text("utf-8"), "import os\n")

@@ -10,7 +10,7 @@ import test_requirements_trace as small
 from traced_project import ROOT, TracedProject
 
 from keel.base.errors import ToolError
-from keel.evidence.traced import read
+from keel.gather.traced import read
 from keel.trace import lobster, strictdoc
 from keel.trace.packages import packages
 from keel.trace.requirements import FOLDER

@@ -35,7 +35,7 @@ ROOT = Path(__file__).resolve().parents[2]
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
 SETTING = r"-f +\S+|[A-Z_]+=(?:\"[^\"]*\"|'[^']*'|[^\s`]+)"
 MAKE = re.compile(rf"(?:^|`|&& |run: )[ ]*make((?: +(?:{SETTING}|[a-z][\w-]*))+)", re.M)
-PROVE = re.compile(r"tools/prove\.py([^`\n]*)")
+PROVE = re.compile(r"tools/keel prove([^`\n]*)")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 
 

@@ -18,7 +18,7 @@ provide("common")
 import test_requirements_trace as small
 
 from keel.base.files import write_json, write_text
-from keel.evidence.part import Context, Part
+from keel.gather.part import Context, Part
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -66,7 +66,7 @@ class TracedProject(unittest.TestCase):
         self.reports = copy.deepcopy(REPORTS)
         # What StrictDoc and LOBSTER do is tested in test_tracing_tools.py.
         for place in ("requirements.written", "trace.second_look"):
-            patch = mock.patch(f"evidence.parts.{place}", return_value={})
+            patch = mock.patch(f"keel.gather.parts.{place}", return_value={})
             patch.start()
             self.addCleanup(patch.stop)
         for name, text in small.FILES.items():

@@ -12,4 +12,6 @@ engines   asks WP, CBMC and Gappa
 prove     one run of the proofs, from the choice of units to the report
 mutate    breaks the code, and sees whether proofs notice
 cli       the sub-commands
+
+CONTRIBUTING.md has the others.
 """

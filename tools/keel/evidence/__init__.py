@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The evidence package: each part gathers one kind of evidence, and says what is wrong with it."""
+"""Makes the evidence package of what was gathered: pages, PDF, checksums, attestation."""

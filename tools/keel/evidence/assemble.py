@@ -9,29 +9,11 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import get_args
 
 from keel.base.errors import ToolError
-from keel.evidence.part import Context, Item, Kind, Part, State
+from keel.gather.part import KINDS, PARTS, Context, Item, Part, State
 
-# In the order of the package: from what was wanted to what was found, and what it rests on.
-PARTS = (
-    "objectives",
-    "plans",
-    "requirements",
-    "trace",
-    "contracts",
-    "formal",
-    "strength",
-    "tests",
-    "static",
-    "object",
-    "tools",
-    "configuration",
-    "safety",
-)
 WORST: tuple[State, ...] = ("bad", "open", "good", "told")
-KINDS: tuple[str, ...] = get_args(Kind)
 REFERENCE = re.compile(rf"(?:{'|'.join(KINDS)}):\S+")
 
 # Those of a project that uses Keel.
@@ -102,20 +84,20 @@ class Assembled:
 
 def maker_of(name: str) -> Maker:
     """The function that makes a part."""
-    module = f"evidence.parts.{name}"
+    module = f"keel.gather.parts.{name}"
     try:
         made: Maker = importlib.import_module(module).make
     except ModuleNotFoundError as error:
         if error.name != module:
             raise
-        raise ToolError(f"is missing: there is no tools/evidence/parts/{name}.py") from error
+        raise ToolError(f"is missing: there is no tools/keel/gather/parts/{name}.py") from error
     return made
 
 
 def own_maker_of(name: str) -> Maker:
     """The same for a project that uses Keel; what says nothing of Keel alone serves both."""
     made: Maker = importlib.import_module(
-        f"evidence.{'parts' if name in PARTS_OF_BOTH else 'own'}.{name}"
+        f"keel.gather.{'parts' if name in PARTS_OF_BOTH else 'users'}.{name}"
     ).make
     return made
 

@@ -46,10 +46,10 @@ from keel.evidence.commands import (
 )
 from keel.evidence.digest import as_markdown
 from keel.evidence.package import Source, source_of, write_package
-from keel.evidence.part import Context
-from keel.evidence.parts.tools import GROUPS
-from keel.evidence.strength.mutants import foreseen
 from keel.evidence.verify import reproduced, verify
+from keel.gather.part import Context
+from keel.gather.parts.tools import GROUPS
+from keel.gather.strength.mutants import foreseen
 
 BEGUN = time.monotonic()
 

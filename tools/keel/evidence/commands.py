@@ -17,8 +17,8 @@ from keel.base.files import write_text
 from keel.base.run import Ended, run, stop_all
 from keel.base.source import GOOD, VERDICT
 from keel.boards.board import board_names
-from keel.evidence.part import Context
-from keel.evidence.parts.tools import report_problems
+from keel.gather.part import Context
+from keel.gather.parts.tools import report_problems
 from keel.install import Toolchain
 
 PROOFS = "prove/report.json"

@@ -16,9 +16,9 @@ from keel.base.files import sha256_of, write_bytes, write_json, write_text
 from keel.base.git import git
 from keel.evidence import attestation, measured
 from keel.evidence.assemble import Assembled
-from keel.evidence.part import Part
 from keel.evidence.pdf import summary_pdf
 from keel.evidence.site import write_site
+from keel.gather.part import Part
 
 SCHEMA = 1  # Of part.json and evidence.json; a change of their form counts it up.
 SUMS = "SHA256SUMS"

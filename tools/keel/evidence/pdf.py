@@ -16,7 +16,7 @@ from fpdf.fonts import FontFace
 
 from keel.base.files import write_bytes
 from keel.evidence.assemble import REFERENCE, Assembled
-from keel.evidence.part import Part, Table
+from keel.gather.part import Part, Table
 from keel.install import Toolchain
 
 NARROW, WIDE = 10, 50  # Characters of a column.

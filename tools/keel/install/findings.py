@@ -14,7 +14,8 @@ from pathlib import Path
 
 from keel.base.files import write_text
 from keel.install.found import Found, path_outside
-from keel.install.lock import TOOLS_DIR, Lock, Spec
+from keel.install.groups import TOOLS_DIR
+from keel.install.lock import Lock, Spec
 from keel.install.prover_limits import within_limits
 from keel.install.provers import MACHDEP_FILE
 

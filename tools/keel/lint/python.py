@@ -34,6 +34,8 @@ def ruff(tools: Toolchain) -> list[str]:
 
 def lay_out(tools: Toolchain, root: Path) -> None:
     """Lay out all Python, and sort what it imports."""
+    if not (root / SETTINGS).is_file():
+        return
     for words in (["check", "--quiet", "--select", "I", "--fix-only"], ["format", "--quiet"]):
         done = run([*ruff(tools), *words, *PLACES], cwd=root)
         if not done.good:

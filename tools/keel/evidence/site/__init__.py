@@ -15,10 +15,10 @@ from markupsafe import Markup
 from keel.base.files import write_text
 from keel.evidence import measured
 from keel.evidence.assemble import REFERENCE, Assembled, Entry
-from keel.evidence.part import Part
 from keel.evidence.site.addresses import PLACE, Address, addresses, group_of, slug
 from keel.evidence.site.model import IN_MATRIX, Model, by_kind, count, plural
 from keel.evidence.site.traces import Tracer
+from keel.gather.part import Part
 
 HERE = Path(__file__).resolve().parent
 ASSETS = ("style.css", "site.js")

@@ -7,7 +7,8 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from keel.evidence.assemble import KINDS, Assembled, Entry
+from keel.evidence.assemble import Assembled, Entry
+from keel.gather.part import KINDS
 
 # What a reader of one thing looks for, in this order.
 ORDER = (

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The part `contracts`: every public function as its header declares it, comment and contract."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from keel.base.files import read_text
+from keel.c.project import Unit, find_units
+from keel.gather.part import Context, Item, Part
+
+DECLARATION = re.compile(
+    r"(?P<comments>(?:/\*(?:(?!\*/).)*\*/\s*)+)"
+    r"(?P<prototype>(?:[A-Za-z_][\w \n]*[ *\n])(?P<name>[a-z]\w*)\([^;{}]*\))\s*[;{]",
+    re.DOTALL,
+)
+GUARDS = re.compile(r"^[A-Z_]+\n", re.MULTILINE)  # KEEL_C_BEGIN, which stands alone.
+DOCUMENTED = "/**"
+SENTENCE = re.compile(
+    r"/\*\*[\s*]*(.*?)(?:\s\((?:requirement|eq|[A-Z]{3}-)|(?<!eq)\.\s|\n \*\n|\s*\*/)", re.DOTALL
+)
+TEXT = """\
+The promises and the preconditions of each public function: its comment, its contract in ACSL and
+its prototype, as they stand in the header. The formal proofs are about the contract."""
+
+
+class Declared(NamedTuple):
+    """A function of a header."""
+
+    name: str
+    text: str
+    line: int
+
+    @property
+    def title(self) -> str:
+        """The first sentence of its comment."""
+        match = SENTENCE.search(self.text)
+        words = re.sub(r"\s*\n\s*\*?\s*", " ", match[1]).strip() if match else ""
+        return words or self.name
+
+
+def declared(text: str) -> Iterator[Declared]:
+    """The functions that a header declares or defines and explains; what stands in their contracts
+    for any function of a user's has no such comment."""
+    for match in DECLARATION.finditer(text):
+        _, explained, rest = match["comments"].rpartition(DOCUMENTED)
+        if explained:
+            whole = GUARDS.sub("", f"{explained}{rest}{match['prototype']};")
+            line = text.count("\n", 0, match.start("prototype")) + 1
+            yield Declared(match["name"], whole.strip(), line)
+
+
+def items_of(unit: Unit, root: Path) -> Iterator[Item]:
+    """A unit and its functions."""
+    header = unit.header.relative_to(root).as_posix()
+    yield Item(
+        kind="unit",
+        id=unit.name,
+        title=f"{unit.layer}/{unit.name}",
+        facts={"header": f"file:{header}"},
+        links=(f"file:{header}",),
+    )
+    for one in declared(read_text(unit.header)):
+        if one.name.startswith(f"{unit.prefix}"):
+            yield Item(
+                kind="function",
+                id=one.name,
+                title=one.title,
+                text=one.text,
+                facts={"declared at": f"{header}:{one.line}"},
+                links=(f"unit:{unit.name}", f"file:{header}"),
+            )
+
+
+def make(context: Context) -> Part:
+    """All units."""
+    units = find_units(context.root)
+    items = tuple(item for unit in units.values() for item in items_of(unit, context.root))
+    functions = [item for item in items if item.kind == "function"]
+    bare = [f"{item.id}: has no contract" for item in functions if "/*@" not in item.text]
+    return Part(
+        name="contracts",
+        title="Contracts",
+        text=TEXT,
+        items=items,
+        problems=tuple(bare),
+        summary={"units": str(len(units)), "public functions": str(len(functions))},
+    )
