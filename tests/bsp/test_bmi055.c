@@ -282,8 +282,8 @@ static void BMI_007_it_is_still_the_one(void)
     }
 }
 
-/* The other part goes on moving, and the temperature; the accelerometer's bit that tells a new value
- * does not count. */
+/* The other part goes on moving, and the temperature; the accelerometer's bit that tells a new
+ * value does not count. */
 static void BMI_008_samples_that_do_not_move(void)
 {
     for (uint32_t which = 0u; which < PARTS; which++) {
