@@ -127,7 +127,8 @@ def powered_up(ports: list[int], folder: Path, *options: str) -> Iterator[subpro
         sim = subprocess.Popen(
             [
                 sys.executable,
-                str(TOOLS / "sim.py"),
+                str(TOOLS / "keel"),
+                "sim",
                 "--cold",
                 "--build",
                 str(folder),
@@ -137,6 +138,7 @@ def powered_up(ports: list[int], folder: Path, *options: str) -> Iterator[subpro
             stdin=subprocess.PIPE,
             stdout=out,
             stderr=subprocess.STDOUT,
+            env={**os.environ, READY: "sim"},  # These tests have all packages of that group.
         )
         try:
             wait_for(
