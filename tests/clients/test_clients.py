@@ -23,6 +23,7 @@ from other_values import defaults, others
 from pymavlink import mavparm, mavutil
 from qgroundcontrol import Driver, QGroundControl
 
+from keel.cli.commands import READY
 from keel.timeline import ulog
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
