@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Registers, values and scales are those of BST-BMI055-DS000, revision 1.2, where each register is
- * told by its part and address: ACC 0x00 to 0x14 and GYR 0x00 to 0x14. The pin PS chooses the
- * interface, so no first read must be thrown away, as a BMI088 wants. */
+/* Registers, values and scales are those on which the drivers of PX4, ArduPilot, Linux and Zephyr
+ * agree. The registers' chapters of the data sheet (BST-BMI055-DS000) were not at hand. The pin PS
+ * chooses the interface, so no first read must be thrown away, as a BMI088 wants. */
 #include "devices/bmi055.h"
 
 /* The same of both. */

@@ -34,8 +34,7 @@
 /** The fastest that the bus may be, in Hz (table of the SPI's timing). */
 #define KEEL_BMI055_BUS_LIMIT_HZ 10000000u
 
-/** What both need after a reset, in us: the gyroscope's start-up time; the accelerometer's is 3 ms
- * (tables of the electrical specification). */
+/** The time that both get after a reset, in us: the gyroscope's start-up, the longer of the two. */
 #define KEEL_BMI055_RESET_US 30000u
 
 /** How often the same rates, or the same accelerations, may be read again: noise moves each. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Registers, values and scales are those of DS-000347, revision 1.7: its sections on the registers
- * of banks 0 to 2, 5.3 (anti-alias filters) and 4.13 (temperature). */
+/* Registers, values and scales are those on which the drivers of PX4, ArduPilot, Linux and Zephyr
+ * agree, who cite DS-000347. The registers' chapters of the data sheet were not at hand. */
 #include "devices/icm42688.h"
 
 /* Bank 0. */
@@ -125,8 +125,8 @@ static keel_bsp_status_t configure_accelerometer(const keel_registers_t *device)
     return configure_bank(device, 2u, setting, COUNT(setting));
 }
 
-/* While gyroscope and accelerometer are off: section 12.9 lets only ranges, rates and power be
- * written while they run. Bank 0 is last, as it is the one to stay in. */
+/* While gyroscope and accelerometer are off: only ranges, rates and power may be written while they
+ * run. Bank 0 is last, as it is the one to stay in. */
 static keel_bsp_status_t configure_banks(const keel_registers_t *device)
 {
     keel_bsp_status_t status = configure_gyroscope(device);
@@ -170,7 +170,8 @@ keel_bsp_status_t keel_icm42688_check(const keel_icm42688_t *sensor)
 keel_bsp_status_t keel_icm42688_ready(const keel_icm42688_t *sensor, bool *ready)
 {
     uint8_t value = 0u;
-    const keel_bsp_status_t status = keel_register_read(&sensor->registers, REG_INT_STATUS, &value);
+    const keel_bsp_status_t status = keel_register_read(&sensor->registers.bus, REG_INT_STATUS,
+                                                        &value);
 
     if (status == KEEL_BSP_OK) {
         *ready = (value & DATA_READY) != 0u;

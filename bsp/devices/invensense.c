@@ -15,10 +15,9 @@
 #define REG_I2C_IF            0x70u
 #define REG_WHO_AM_I          0x75u
 
-#define READ           0x80u /* Bit 7 of the address. */
+#define ALL            0xFFu /* Bits of a register: each setting is of the whole of it. */
 #define DEVICE_RESET   0x80u
 #define DATA_READY     0x01u
-#define SETTLE_US      1000u
 #define SAMPLE_BYTES   14u
 #define TRANSFER_BYTES (SAMPLE_BYTES + 1u)
 #define SETTINGS       8u
@@ -64,76 +63,17 @@ const keel_invensense_kind_t keel_mpu6000 = {
     .has_second_filter = false,
 };
 
-/* A register with what it is set to. */
-typedef struct setting {
-    uint8_t address;
-    uint8_t value;
-} setting_t;
-
-static keel_bsp_status_t read_register(const keel_bus_t *bus, uint8_t address, uint8_t *value)
-{
-    const uint8_t out[2] = {(uint8_t)(address | READ), 0u};
-    uint8_t in[2] = {0u, 0u};
-    const keel_bsp_status_t status = keel_bus_transfer(bus, out, in, 2u);
-
-    if (status == KEEL_BSP_OK) {
-        *value = in[1];
-    }
-    return status;
-}
-
-static keel_bsp_status_t write_register(const keel_invensense_t *sensor, setting_t wanted)
-{
-    const uint8_t out[2] = {wanted.address, wanted.value};
-    uint8_t in[2] = {0u, 0u};
-
-    return keel_bus_transfer(&sensor->bus, out, in, 2u);
-}
-
-static keel_bsp_status_t check_identity(const keel_invensense_t *sensor)
-{
-    uint8_t identity = 0u;
-    const keel_bsp_status_t status = read_register(&sensor->bus, REG_WHO_AM_I, &identity);
-
-    if (status != KEEL_BSP_OK) {
-        return status;
-    }
-    if (keel_bus_is_still(&identity, 1u)) {
-        return KEEL_BSP_STUCK;
-    }
-    return (identity == sensor->kind->identity) ? KEEL_BSP_OK : KEEL_BSP_ID;
-}
-
-static keel_bsp_status_t check_setting(const keel_invensense_t *sensor, setting_t wanted)
-{
-    uint8_t value = 0u;
-    const keel_bsp_status_t status = read_register(&sensor->bus, wanted.address, &value);
-
-    if (status != KEEL_BSP_OK) {
-        return status;
-    }
-    return (value == wanted.value) ? KEEL_BSP_OK : KEEL_BSP_VERIFY;
-}
-
-/* Writes, and waits. */
-static keel_bsp_status_t write_and_wait(const keel_invensense_t *sensor, setting_t wanted,
-                                        uint32_t time_us)
-{
-    const keel_bsp_status_t status = write_register(sensor, wanted);
-
-    return (status == KEEL_BSP_OK) ? sensor->delay(sensor->delay_context, time_us) : status;
-}
-
 static keel_bsp_status_t reset_device(const keel_invensense_t *sensor)
 {
-    const setting_t device = {REG_PWR_MGMT_1, DEVICE_RESET};
-    const setting_t paths = {REG_SIGNAL_PATH_RESET, sensor->kind->signal_paths};
-    const keel_bsp_status_t status = write_and_wait(sensor, device, KEEL_INVENSENSE_RESET_US);
+    const keel_setting_t device = {REG_PWR_MGMT_1, ALL, DEVICE_RESET};
+    const keel_setting_t paths = {REG_SIGNAL_PATH_RESET, ALL, sensor->kind->signal_paths};
+    const keel_bsp_status_t status = keel_register_write(&sensor->registers, device,
+                                                         KEEL_INVENSENSE_RESET_US);
 
     if ((status != KEEL_BSP_OK) || (sensor->kind->signal_paths == 0u)) {
         return status;
     }
-    return write_and_wait(sensor, paths, KEEL_INVENSENSE_RESET_US);
+    return keel_register_write(&sensor->registers, paths, KEEL_INVENSENSE_RESET_US);
 }
 
 /* Writes the settings if asked to, and reads them back. */
@@ -141,26 +81,27 @@ static keel_bsp_status_t go_through(const keel_invensense_t *sensor, bool write)
 {
     /* In this order: awake and on the gyroscope's clock first, the I2C interface off before the
      * bus is shared, data ready last. */
-    const setting_t setting[SETTINGS] = {
-        {REG_PWR_MGMT_1, 0x01u}, /* Best clock available. */
-        [OF_INTERFACE] = {sensor->kind->interface_address, sensor->kind->interface_value},
-        {REG_SMPLRT_DIV, 0x00u},                  /* 1 kHz. */
-        {REG_CONFIG, 0x01u},                      /* Low-pass; 0 would sample at 8 kHz. */
-        {REG_GYRO_CONFIG, 0x18u},                 /* 2000 degrees per second. */
-        {REG_ACCEL_CONFIG, 0x18u},                /* 16 g. */
-        [OF_FILTER] = {REG_ACCEL_CONFIG2, 0x01u}, /* Accelerometer's low-pass. */
-        {REG_INT_ENABLE, DATA_READY},
+    const keel_setting_t setting[SETTINGS] = {
+        {REG_PWR_MGMT_1, ALL, 0x01u}, /* Best clock available. */
+        [OF_INTERFACE] = {sensor->kind->interface_address, ALL, sensor->kind->interface_value},
+        {REG_SMPLRT_DIV, ALL, 0x00u},                  /* 1 kHz. */
+        {REG_CONFIG, ALL, 0x01u},                      /* Low-pass; 0 would sample at 8 kHz. */
+        {REG_GYRO_CONFIG, ALL, 0x18u},                 /* 2000 degrees per second. */
+        {REG_ACCEL_CONFIG, ALL, 0x18u},                /* 16 g. */
+        [OF_FILTER] = {REG_ACCEL_CONFIG2, ALL, 0x01u}, /* Accelerometer's low-pass. */
+        {REG_INT_ENABLE, ALL, DATA_READY},
     };
-    keel_bsp_status_t status = check_identity(sensor);
+    const keel_setting_t identity = {REG_WHO_AM_I, ALL, sensor->kind->identity};
+    keel_bsp_status_t status = keel_register_identify(&sensor->registers, identity);
 
     for (uint32_t i = 0u; (i < SETTINGS) && (status == KEEL_BSP_OK); i++) {
         const bool is_there = (i != OF_FILTER) || sensor->kind->has_second_filter;
 
         if (is_there && write) {
-            status = write_and_wait(sensor, setting[i], SETTLE_US);
+            status = keel_register_write(&sensor->registers, setting[i], KEEL_REGISTERS_SETTLE_US);
         }
         if (is_there && (status == KEEL_BSP_OK)) {
-            status = check_setting(sensor, setting[i]);
+            status = keel_settings_check(&sensor->registers, &setting[i], 1u);
         }
     }
     return status;
@@ -181,7 +122,8 @@ keel_bsp_status_t keel_invensense_check(const keel_invensense_t *sensor)
 keel_bsp_status_t keel_invensense_ready(const keel_invensense_t *sensor, bool *ready)
 {
     uint8_t value = 0u;
-    const keel_bsp_status_t status = read_register(&sensor->sample_bus, REG_INT_STATUS, &value);
+    const keel_bsp_status_t status = keel_register_read(&sensor->sample_bus, REG_INT_STATUS,
+                                                        &value);
 
     if (status == KEEL_BSP_OK) {
         *ready = (value & DATA_READY) != 0u;
@@ -192,7 +134,7 @@ keel_bsp_status_t keel_invensense_ready(const keel_invensense_t *sensor, bool *r
 keel_bsp_status_t keel_invensense_read(keel_invensense_t *sensor, keel_inertial_sample_t *sample)
 {
     /* The rest of what is sent does not matter. */
-    static const uint8_t out[TRANSFER_BYTES] = {[0] = REG_ACCEL_XOUT_H | READ};
+    static const uint8_t out[TRANSFER_BYTES] = {[0] = REG_ACCEL_XOUT_H | KEEL_REGISTERS_READ};
     const keel_invensense_kind_t *const kind = sensor->kind;
     uint8_t in[TRANSFER_BYTES] = {[0] = 0u};
     const uint8_t *const data = &in[1];

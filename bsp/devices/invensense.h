@@ -46,10 +46,8 @@ extern const keel_invensense_kind_t keel_mpu6000;  /**< MPU-6000. */
 /** A sensor. The caller owns it. */
 typedef struct keel_invensense {
     const keel_invensense_kind_t *kind; /**< Which it is. */
-    keel_bus_t bus;                     /**< The bus, with the sensor selected. */
+    keel_registers_t registers;         /**< For start and check: on the bus, with it selected. */
     keel_bus_t sample_bus;              /**< For samples and their status; may be the same. */
-    keel_delay_fn_t delay;              /**< Waits between the steps of the start. */
-    void *delay_context;                /**< Handed to delay; may be null. */
     keel_repeats_t repeats;             /**< Of samples; 0 at the start. */
 } keel_invensense_t;
 

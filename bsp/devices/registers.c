@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "devices/registers.h"
 
-keel_bsp_status_t keel_register_read(const keel_registers_t *device, uint8_t address,
-                                     uint8_t *value)
+keel_bsp_status_t keel_register_read(const keel_bus_t *bus, uint8_t address, uint8_t *value)
 {
     const uint8_t out[2] = {(uint8_t)(address | KEEL_REGISTERS_READ), 0u};
     uint8_t in[2] = {0u, 0u};
-    const keel_bsp_status_t status = keel_bus_transfer(&device->bus, out, in, 2u);
+    const keel_bsp_status_t status = keel_bus_transfer(bus, out, in, 2u);
 
     if (status == KEEL_BSP_OK) {
         *value = in[1];
@@ -27,7 +26,7 @@ keel_bsp_status_t keel_register_write(const keel_registers_t *device, keel_setti
 keel_bsp_status_t keel_register_identify(const keel_registers_t *device, keel_setting_t identity)
 {
     uint8_t value = 0u;
-    const keel_bsp_status_t status = keel_register_read(device, identity.address, &value);
+    const keel_bsp_status_t status = keel_register_read(&device->bus, identity.address, &value);
 
     if (status != KEEL_BSP_OK) {
         return status;
@@ -41,7 +40,7 @@ keel_bsp_status_t keel_register_identify(const keel_registers_t *device, keel_se
 static keel_bsp_status_t check_bits(const keel_registers_t *device, keel_setting_t setting)
 {
     uint8_t value = 0u;
-    const keel_bsp_status_t status = keel_register_read(device, setting.address, &value);
+    const keel_bsp_status_t status = keel_register_read(&device->bus, setting.address, &value);
 
     if (status != KEEL_BSP_OK) {
         return status;
@@ -53,7 +52,7 @@ static keel_bsp_status_t check_bits(const keel_registers_t *device, keel_setting
 static keel_bsp_status_t write_setting(const keel_registers_t *device, keel_setting_t setting)
 {
     uint8_t value = 0u;
-    keel_bsp_status_t status = keel_register_read(device, setting.address, &value);
+    keel_bsp_status_t status = keel_register_read(&device->bus, setting.address, &value);
 
     if (status == KEEL_BSP_OK) {
         const keel_setting_t written = {

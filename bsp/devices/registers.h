@@ -40,13 +40,12 @@ typedef struct keel_setting {
 /**
  * Reads a register.
  *
- * @param device  the device
+ * @param bus     the bus, with the device selected
  * @param address the register, 0 to 0x7F
  * @param value   what it says
  * @return KEEL_BSP_OK, or KEEL_BSP_TIMEOUT, KEEL_BSP_BUS or KEEL_BSP_SHORT, with value as it was
  */
-keel_bsp_status_t keel_register_read(const keel_registers_t *device, uint8_t address,
-                                     uint8_t *value);
+keel_bsp_status_t keel_register_read(const keel_bus_t *bus, uint8_t address, uint8_t *value);
 
 /**
  * Writes a register, and waits.

@@ -36,10 +36,10 @@ static void power_up(uint32_t kind)
     simulated_invensense_init(&sensor, expected[kind].identity);
     memset(&device, 0, sizeof device);
     device.kind = expected[kind].kind;
-    device.bus = (keel_bus_t){simulated_invensense_exchange, &sensor};
+    device.registers.bus = (keel_bus_t){simulated_invensense_exchange, &sensor};
     device.sample_bus = (keel_bus_t){simulated_invensense_fast_exchange, &sensor};
-    device.delay = simulated_invensense_delay;
-    device.delay_context = &sensor;
+    device.registers.delay = simulated_invensense_delay;
+    device.registers.delay_context = &sensor;
 }
 
 void setUp(void)
@@ -334,7 +334,7 @@ static void ICM_010_how_fast_the_bus_may_be(void)
 /* And on the fast bus alone nothing can be started: the simulation would notice. */
 static void ICM_010_settings_go_over_the_slow_bus(void)
 {
-    device.bus = device.sample_bus;
+    device.registers.bus = device.sample_bus;
     TEST_ASSERT_EQUAL(KEEL_BSP_ID, keel_invensense_start(&device));
 }
 

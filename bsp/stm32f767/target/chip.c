@@ -319,9 +319,8 @@ KEEL_REALTIME_CODE keel_invensense_t *keel_chip_sensor(void)
 {
     static keel_invensense_t sensor = {
         .kind = &keel_icm20689,
-        .bus = {keel_spi_bus_exchange, &sensor_device},
+        .registers = {{keel_spi_bus_exchange, &sensor_device}, delay, NULL},
         .sample_bus = {keel_spi_bus_exchange, &sensor_device},
-        .delay = delay,
     };
 
     return &sensor;

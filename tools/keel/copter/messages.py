@@ -5,8 +5,8 @@
 
 The definitions are those that the pinned pymavlink carries, and
 examples/copter/mavlink_messages.xml has those of MAVLink's messages that it leaves out. Only facts
-are taken of them: names, numbers, types, and the order on the wire. What is written is Keel's own;
-see examples/copter.
+are taken of them: names, numbers, types, and the order on the wire. The text that it writes is
+Keel's own; see examples/copter.
 
 Exit status: 0 when done; 1 when --check finds a file that is not up to date; 2 when it cannot read
 the definitions.

@@ -24,7 +24,7 @@ from keel.judge.harness import Harness, read_harness
 
 # How a comment begins that a prover reads.
 CONTRACTS = ("/*@", "//@")
-# What no mutant is judged with; and where the provers lie, which is theirs.
+# These judge no mutant; the last says where provers lie.
 NO_JUDGES = ("gcc", "newlib", "ocamlfind", "why3-config")
 
 

@@ -39,7 +39,7 @@ from keel.mutate.verdicts import EXECUTED, SAME_CODE, STATUSES, Verdict, read_eq
 FILE = "specs/mutation.toml"
 HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
-# What mutation last said of each unit. make mutate ARGS=--record writes the tables;
+# The last result of mutation for each unit. make mutate ARGS=--record writes the tables;
 # tools/keel/mutate/table.py says what the keys mean.
 """
 WIDTH = 100  # A list that makes its line longer than this has a line for each member.
