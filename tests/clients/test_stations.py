@@ -22,8 +22,7 @@ from pymavlink.dialects.v20 import common as mavlink
 from qgroundcontrol import Driver, Met, QGroundControl, Reply, kind_of, payload_of
 from test_telemetry import Rig
 
-from keel.flight import device_frames as frames
-from keel.flight import library
+from keel.flight import device_frames, library
 from keel.flight.library import Copter, Link
 from keel.install import Toolchain
 from keel.timeline import ulog
@@ -536,7 +535,7 @@ def told_time(rig: Rig) -> tuple[int, float]:
 )
 def test_the_date_is_the_receivers(copter: Copter, begun: datetime) -> None:
     """As Python's calendar has it; late by what the receiver takes."""
-    with mock.patch.object(frames, "BEGUN", begun):
+    with mock.patch.object(device_frames, "BEGUN", begun):
         rig = Rig(copter, warm_ms=5500)
     date, boot = told_time(rig)
     assert 0.0 <= begun.timestamp() + boot - date < 0.35
@@ -552,22 +551,25 @@ def test_the_log_has_the_date(copter: Copter, tmp_path: Path) -> None:
     copter.log(None)
     topic = ulog.read(tmp_path / "log.ulg").topic("satellites")
     date, boot = int(topic["utc_us"][-1]) / 1e6, int(topic["timestamp"][-1]) / 1e6
-    assert 0.0 <= frames.BEGUN.timestamp() + boot - date < 0.35
+    assert 0.0 <= device_frames.BEGUN.timestamp() + boot - date < 0.35
 
 
 @pytest.mark.parametrize(
     ("begun", "dated"),
     [
-        (frames.BEGUN, 0x03),
-        (frames.BEGUN, 0x05),
-        (frames.BEGUN, 0x06),
-        (frames.BEGUN, 0),
+        (device_frames.BEGUN, 0x03),
+        (device_frames.BEGUN, 0x05),
+        (device_frames.BEGUN, 0x06),
+        (device_frames.BEGUN, 0),
         (datetime(1980, 1, 6, tzinfo=UTC), 0x07),
         (datetime(2100, 1, 1, tzinfo=UTC), 0x07),
     ],
 )
 def test_a_date_that_is_not_sure_is_not_told(copter: Copter, begun: datetime, dated: int) -> None:
-    with mock.patch.object(frames, "BEGUN", begun), mock.patch.object(frames, "DATED", dated):
+    with (
+        mock.patch.object(device_frames, "BEGUN", begun),
+        mock.patch.object(device_frames, "DATED", dated),
+    ):
         rig = Rig(copter, warm_ms=3000)
     assert told_time(rig)[0] == 0.0
 

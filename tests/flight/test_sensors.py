@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from keel.flight import device_frames as frames
-from keel.flight import sensors, wind
+from keel.flight import device_frames, sensors, wind
 from keel.flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
 from keel.flight.power import Battery
 from keel.flight.receivers import RADIO, SATELLITES, Receiver
@@ -139,8 +138,8 @@ def last_fix(there: Any) -> Any:
     sent = there["receiver"][SATELLITES]
     places = np.arange(int(sent["count"]) - 100, int(sent["count"])) % len(sent["byte"])
     message = bytes(sent["byte"][places].tolist())
-    assert message == frames.ubx(0x01, 0x07, message[6:-2])
-    return frames.NAV_PVT.unpack(message[6:-2])
+    assert message == device_frames.ubx(0x01, 0x07, message[6:-2])
+    return device_frames.NAV_PVT.unpack(message[6:-2])
 
 
 def north_of(fix: Any) -> float:

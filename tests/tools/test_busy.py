@@ -16,7 +16,7 @@ from keel.base.jobs import Runner
 from keel.c.project import find_units
 from keel.engines import cbmc, wp
 from keel.install import Toolchain, ToolchainError, small_environment
-from keel.judge import wp_targets as targets
+from keel.judge import wp_targets
 from keel.judge.goals import read_goals
 from keel.judge.harness import read_harness
 
@@ -51,7 +51,7 @@ class Dearest(unittest.TestCase):
     def test_a_function(self) -> None:
         name, function = FUNCTION
         unit = find_units()[name]
-        [target] = [one for one in targets.targets(unit) if one.function == function]
+        [target] = [one for one in wp_targets.targets(unit) if one.function == function]
         prover = wp.Wp(
             self.tools.frama_c(),
             self.runner,

@@ -15,13 +15,13 @@ from unittest import mock
 
 from test_prove import ASSERTED, HARNESS, TreeTest, WholeRunCase, cbmc_output, item
 
-from keel.audit import completeness as rules
+from keel.audit import completeness
 from keel.base.jobs import Finished, Runner
 from keel.c.project import ProjectError, find_units
 from keel.engines import cbmc
 from keel.install import Toolchain, ToolchainError
 from keel.judge import cbmc_answers, harness
-from keel.prove import job_list as engines
+from keel.prove import job_list
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -79,7 +79,7 @@ class Directive(TreeTest):
     def test_the_choice_is_part_of_the_key(self) -> None:
         checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
         keys = {
-            engines.cbmc_key(self.read(text), checker, self.root, {"z3": version})
+            job_list.cbmc_key(self.read(text), checker, self.root, {"z3": version})
             for text in (HARNESS, ALONE)
             for version in ("4.8.12", "4.9")
         }
@@ -129,7 +129,7 @@ class Directive(TreeTest):
         model.write_text(
             MODEL.replace("    *box", "    __CPROVER_assume(0);\n    *box"), encoding="utf-8"
         )
-        self.assertEqual(len(rules.assumptions_in([model], self.root)), 1)
+        self.assertEqual(len(completeness.assumptions_in([model], self.root)), 1)
 
 
 class Report(WholeRunCase):

@@ -14,8 +14,7 @@ from typing import Any
 
 from keel.audit import assertions, unused
 from keel.c.project import Unit, find_units
-from keel.judge import wp_frames as frames
-from keel.judge import wp_targets as targets
+from keel.judge import wp_frames, wp_targets
 from keel.judge.settings import Exceptions
 from keel.lint import refusals
 
@@ -107,20 +106,20 @@ class Frames(Tree):
         exceptions = Exceptions(
             not_by_wp=self.left if left is None else left, by_cbmc=dict.fromkeys(entries, "why")
         )
-        return frames.problems(self.unit, exceptions, [self.unit])
+        return wp_frames.problems(self.unit, exceptions, [self.unit])
 
     def test_all_but_postconditions_and_what_is_named_stays_with_wp(self) -> None:
         entry = "keel_box_fill put_small keel_box_fill_harness"
         exceptions = Exceptions(not_by_wp=self.left, by_cbmc={entry: "why"})
-        target = targets.Target(self.unit, self.unit.source, "keel_box_fill")
-        found = frames.restricted(target, exceptions).selection
+        target = wp_targets.Target(self.unit, self.unit.source, "keel_box_fill")
+        found = wp_frames.restricted(target, exceptions).selection
         self.assertEqual(found[:2], ["-wp-fct", "keel_box_fill"])
-        self.assertEqual(found[2:], ["-wp-prop=-@ensures,-put_small", *frames.NO_FLOATS])
+        self.assertEqual(found[2:], ["-wp-prop=-@ensures,-put_small", *wp_frames.NO_FLOATS])
 
     def test_other_functions_stay_whole(self) -> None:
-        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
+        target = wp_targets.Target(self.unit, self.unit.source, "keel_box_put")
         self.assertEqual(
-            frames.restricted(target, Exceptions()).selection, ["-wp-fct", "keel_box_put"]
+            wp_frames.restricted(target, Exceptions()).selection, ["-wp-fct", "keel_box_put"]
         )
 
     def test_a_precondition_that_a_stand_in_asserts_is_fine(self) -> None:
@@ -161,7 +160,7 @@ class Frames(Tree):
         )
         self.write("src/rtos/box.c", SOURCE.replace("/*@ requires", ghost + "/*@ requires"))
         self.assertEqual(self.problems(), [])
-        self.assertEqual(frames.preconditions([self.unit])["told"], "tell")
+        self.assertEqual(wp_frames.preconditions([self.unit])["told"], "tell")
 
     def test_a_postcondition_that_no_engine_proves_is_a_failure(self) -> None:
         stated = "  @ assigns *box;\n  @ ensures *box == 3;\n  @*/\nstatic"

@@ -20,7 +20,7 @@ from unittest import mock
 from keel.base.verdict_cache import Cache
 from keel.c.project import ProjectError, Unit
 from keel.engines import wp
-from keel.judge import wp_targets as targets
+from keel.judge import wp_targets
 from keel.judge.settings import Exceptions
 from keel.mutate import command as mutate
 from keel.mutate import mutation
@@ -213,7 +213,7 @@ class Limits(unittest.TestCase):
                 answer = {"prover": prover, "verdict": "valid", "time": seconds}
                 (Path(folder) / f"{name}.json").write_text(json.dumps(answer), encoding="utf-8")
             goals = [{"prover": "Qed"}, {"prover": "Alt-Ergo 2.0.0"}, {"prover": "CVC4 1.8"}]
-            stages = mutation.limits(targets.Result(goals=goals), Path(folder))
+            stages = mutation.limits(wp_targets.Result(goals=goals), Path(folder))
         names = ("alt-ergo", "cvc4")
         self.assertEqual(stages, (wp.Stage(names, 12), wp.Stage(names, 12, pruning=True)))
 
@@ -295,7 +295,7 @@ class Asked:
         self.asked: list[tuple[wp.Stage, ...]] = []
 
     def first_problem(
-        self, _target: targets.Target, stages: tuple[wp.Stage, ...], _: object
+        self, _target: wp_targets.Target, stages: tuple[wp.Stage, ...], _: object
     ) -> str:
         self.asked.append(stages)
         return "" if stages in self.proves else "f_ensures"
@@ -308,7 +308,7 @@ class Patience(Trials):
         """What a trial makes of WP's answers, and how often it asked."""
         prover: Any = Asked(proves)
         self.trial._patient = patient
-        target = targets.Target(self.unit, self.unit.header, "keel_box_small")
+        target = wp_targets.Target(self.unit, self.unit.header, "keel_box_small")
         return self.trial._asked(prover, target, self.short), len(prover.asked)
 
     def test_what_only_takes_longer_survives(self) -> None:

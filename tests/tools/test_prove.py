@@ -25,8 +25,7 @@ from unittest import mock
 
 from waiting import WAIT_S, wait_for
 
-from keel.audit import completeness as rules
-from keel.audit import theorems
+from keel.audit import completeness, theorems
 from keel.base.files import write_text
 from keel.base.jobs import Finished, Runner, in_pool
 from keel.base.verdict_cache import Cache
@@ -35,15 +34,13 @@ from keel.c.project import ProjectError, Unit, closure, find_units
 from keel.c.syntax import SyntaxProblem
 from keel.engines import cbmc, wp
 from keel.install import Toolchain, ToolchainError
-from keel.judge import cbmc_answers, harness, settings
+from keel.judge import cbmc_answers, harness, settings, wp_targets
 from keel.judge import wp_log as wplog
-from keel.judge import wp_targets as targets
 from keel.judge import wp_verdict as verdict
 from keel.judge import wrong_bodies as wrong
 from keel.judge.cbmc_answers import read_answer, refutation_problems
 from keel.prove import command as prove
-from keel.prove import driver, exports
-from keel.prove import job_list as engines
+from keel.prove import driver, exports, job_list
 from keel.prove.proof_run import Choice, Session
 from keel.prove.times import Times
 
@@ -272,11 +269,11 @@ GOOD = (
 
 
 class WpVerdict(TreeTest):
-    def judge(self, log: str, report: str, allowed: tuple[str, ...] = ()) -> targets.Result:
-        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
+    def judge(self, log: str, report: str, allowed: tuple[str, ...] = ()) -> wp_targets.Result:
+        target = wp_targets.Target(self.unit, self.unit.source, "keel_box_put")
         return verdict.judge(target, log, report, self.root, allowed)
 
-    def assert_fails(self, result: targets.Result, text: str) -> None:
+    def assert_fails(self, result: wp_targets.Result, text: str) -> None:
         self.assertTrue(any(text in problem for problem in result.problems), result.problems)
 
     def test_all_proved_is_success(self) -> None:
@@ -382,7 +379,7 @@ class WpVerdict(TreeTest):
         self.assert_fails(self.judge(log, wp_report(3, 3)), "does not know this function")
 
     def test_a_loop_without_variant_is_a_failure(self) -> None:
-        target = targets.Target(self.unit, self.unit.source, "helper")
+        target = wp_targets.Target(self.unit, self.unit.source, "helper")
         goal = "[wp] [Qed] Goal typed_helper_assigns : Valid (1ms)"
         variant = "[wp] [Qed] Goal typed_helper_loop_variant_decrease : Valid (1ms)"
         without = verdict.judge(target, wp_log(goal, function="helper"), wp_report(1, 1), self.root)
@@ -402,22 +399,22 @@ class WpRun(TreeTest):
         return wp.Wp(frama_c, runner, self.root, self.root, cache, ["true"])
 
     def test_each_stage_uses_its_own_provers_only(self) -> None:
-        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
+        target = wp_targets.Target(self.unit, self.unit.source, "keel_box_put")
         command = self.prover().command(target, wp.THOROUGH, True, self.root / "r.json")
         provers = [word for word in command if word.startswith("-wp-prover")]
         # WP asks a prover as often as it was named, so none is named again while it stays.
         self.assertEqual(provers, ["-wp-prover=alt-ergo,cvc4", "-wp-prover=z3"])
 
     def test_contradictions_are_looked_for_in_functions_where_asked(self) -> None:
-        function = targets.Target(self.unit, self.unit.source, "keel_box_put")
-        lemmas = targets.Target(self.unit, self.unit.source, None, ("BOX_two",))
+        function = wp_targets.Target(self.unit, self.unit.source, "keel_box_put")
+        lemmas = wp_targets.Target(self.unit, self.unit.source, None, ("BOX_two",))
         for target, smoke, times in ((function, True, 1), (function, False, 0), (lemmas, True, 0)):
             command = self.prover().command(target, wp.QUICK, smoke, self.root / "r.json")
             [modules] = [command[i + 1] for i, word in enumerate(command) if word == "-load-module"]
             self.assertEqual(modules.count("find_contradictions.cmxs"), times)
 
     def test_the_script_is_told_function_prover_and_what_is_left(self) -> None:
-        target = targets.Target(self.unit, self.unit.source, "keel_box_put", left=("BOX_3",))
+        target = wp_targets.Target(self.unit, self.unit.source, "keel_box_put", left=("BOX_3",))
         with mock.patch.object(Runner, "run", return_value=Finished(0, "")) as run:
             self.prover().prove(target, wp.QUICK)
         self.assertEqual(
@@ -438,14 +435,14 @@ class WpRun(TreeTest):
                 prover.survey(self.unit.source)
 
     def test_where_nothing_is_recorded_all_provers_are_asked_at_once(self) -> None:
-        target = targets.Target(self.unit, self.unit.source, "keel_box_put", left=frozenset())
+        target = wp_targets.Target(self.unit, self.unit.source, "keel_box_put", left=frozenset())
         prover = self.prover()
         with mock.patch.object(prover, "_judged") as judged:
             prover._run(target, wp.THOROUGH, True, (), {})
         self.assertIn("-wp-prover=alt-ergo,cvc4,z3", judged.call_args.args[1])
 
     def test_floats_are_smoked_by_a_prover_that_knows_them(self) -> None:
-        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
+        target = wp_targets.Target(self.unit, self.unit.source, "keel_box_put")
         self.assertEqual(wp.smoke_stage(target, self.root), wp.SMOKE)
         with self.unit.header.open("a", encoding="utf-8") as stream:
             stream.write("typedef struct { float most; } keel_box_limit_t;\n")
@@ -453,7 +450,7 @@ class WpRun(TreeTest):
 
     def test_answers_that_prove_nothing_are_forgotten(self) -> None:
         prover = self.prover(self.root / "answers")
-        target = targets.Target(self.unit, self.unit.source, "keel_box_put")
+        target = wp_targets.Target(self.unit, self.unit.source, "keel_box_put")
         folder = self.root / "answers" / target.identity
         folder.mkdir(parents=True)
         answers = {
@@ -471,19 +468,19 @@ class WpRun(TreeTest):
     def test_targets_are_the_functions_of_header_and_source_and_the_lemmas(self) -> None:
         with self.unit.header.open("a", encoding="utf-8") as stream:
             stream.write("/*@ lemma BOX_two: 1 + 1 == 2;\n  @*/\n")
-        names = [(t.name, t.lemmas) for t in targets.targets(self.unit)]
+        names = [(t.name, t.lemmas) for t in wp_targets.targets(self.unit)]
         self.assertEqual(names, [("helper", ()), ("keel_box_put", ()), ("lemmas", ("BOX_two",))])
 
     def test_theorem_files_are_targets(self) -> None:
         text = "// wp: theorem\nvoid theorem(int *b)\n{\n    keel_box_put(b, 1);\n}\n"
         (self.unit.folder / "twice.c").write_text(text, encoding="utf-8")
         unit = find_units(self.root)["box"]
-        found = [(t.file.stem, t.function) for t in targets.targets(unit)]
+        found = [(t.file.stem, t.function) for t in wp_targets.targets(unit)]
         self.assertIn(("twice", "theorem"), found)
 
     def test_a_unit_of_inline_functions_is_proved_by_including_it(self) -> None:
         self.unit.source.unlink()
-        file = targets.translation_unit(self.unit)
+        file = wp_targets.translation_unit(self.unit)
         self.assertEqual(file.read_text(encoding="utf-8"), '#include "keel/rtos/box.h"\n')
 
 
@@ -496,8 +493,8 @@ class Keys(TreeTest):
         exceptions = settings.read_exceptions(self.root / "none", ["box"])
         stamp = {"tool": "1"}
         jobs = [
-            *engines.wp_jobs([unit], prover, self.root, stamp, exceptions),
-            *engines.cbmc_jobs([unit], checker, self.root, stamp),
+            *job_list.wp_jobs([unit], prover, self.root, stamp, exceptions),
+            *job_list.cbmc_jobs([unit], checker, self.root, stamp),
         ]
         return {job.name: job.key() for job in jobs}
 
@@ -777,78 +774,82 @@ class Jobs(unittest.TestCase):
 
 class Rules(TreeTest):
     def test_a_public_function_without_a_contract_is_named(self) -> None:
-        self.assertEqual(rules.without_contract(self.unit, self.root), [])
+        self.assertEqual(completeness.without_contract(self.unit, self.root), [])
         text = "/*@ predicate fits(integer x) = x < 3; */\nvoid keel_box_empty(int *box);\n"
         with self.unit.header.open("a", encoding="utf-8") as stream:
             stream.write(text)
         line = self.unit.header.read_text(encoding="utf-8").count("\n")
-        [problem] = rules.without_contract(self.unit, self.root)
+        [problem] = completeness.without_contract(self.unit, self.root)
         self.assertIn(f"include/keel/rtos/box.h:{line}: keel_box_empty has no contract", problem)
 
     def test_a_ghost_function_that_leads_back_to_itself_fails(self) -> None:
         ghost = "/*@ ghost\nstatic void {}(int n)\n{{\n    {}(n);\n}}\n*/\n"
         path = self.root / "src/rtos/ghost.c"
         path.write_text(ghost.format("one", "two") + ghost.format("two", "one"), encoding="utf-8")
-        self.assertEqual(len(rules.endless([path])), 2)
+        self.assertEqual(len(completeness.endless([path])), 2)
         path.write_text(ghost.format("one", "two") + ghost.format("two", "put"), encoding="utf-8")
-        self.assertEqual(rules.endless([path]), [])
+        self.assertEqual(completeness.endless([path]), [])
         path.write_text("int one(int n)\n{\n    return one(n - 1);\n}\n", encoding="utf-8")
-        [problem] = rules.endless([path])
+        [problem] = completeness.endless([path])
         self.assertIn("one calls itself", problem)
 
     def test_code_of_no_unit_is_proved_nowhere(self) -> None:
         units = find_units(self.root).values()
-        self.assertEqual(rules.strays(self.root, units), [])
+        self.assertEqual(completeness.strays(self.root, units), [])
         (self.root / "src/rtos/hidden.c").write_text("int hidden;\n", encoding="utf-8")
-        [problem] = rules.strays(self.root, units)
+        [problem] = completeness.strays(self.root, units)
         self.assertIn("src/rtos/hidden.c: it belongs to no unit", problem)
 
     def test_a_vanished_goal_is_a_failure(self) -> None:
-        [problem] = rules.compare_goals(["a", "b"], ["a"], "goals.txt")
+        [problem] = completeness.compare_goals(["a", "b"], ["a"], "goals.txt")
         self.assertIn("b is listed, but WP has no such goal", problem)
 
     def test_a_new_goal_must_be_reviewed(self) -> None:
-        [problem] = rules.compare_goals(["a"], ["a", "b"], "goals.txt")
+        [problem] = completeness.compare_goals(["a"], ["a", "b"], "goals.txt")
         self.assertIn("b is a new goal", problem)
 
     def test_goals_have_names_of_their_own(self) -> None:
-        self.assertIn("2 goals are called a", rules.compare_goals(["a"], ["a", "a"], "x")[0])
-        self.assertIn("not sorted", rules.compare_goals(["b", "a"], ["a", "b"], "x")[0])
+        self.assertIn("2 goals are called a", completeness.compare_goals(["a"], ["a", "a"], "x")[0])
+        self.assertIn("not sorted", completeness.compare_goals(["b", "a"], ["a", "b"], "x")[0])
 
     def test_equal_lists_are_fine(self) -> None:
-        self.assertEqual(rules.compare_goals(["a", "b"], ["b", "a"], "x"), [])
+        self.assertEqual(completeness.compare_goals(["a", "b"], ["b", "a"], "x"), [])
 
     def test_a_function_without_harness_is_a_failure(self) -> None:
-        self.assertEqual(rules.missing_harnesses(self.unit, {}, self.root), [])
+        self.assertEqual(completeness.missing_harnesses(self.unit, {}, self.root), [])
         (self.unit.folder / "keel_box_put_harness.c").unlink()
         unit = find_units(self.root)["box"]
-        [problem] = rules.missing_harnesses(unit, {}, self.root)
+        [problem] = completeness.missing_harnesses(unit, {}, self.root)
         self.assertIn("write proofs/box/keel_box_put_harness.c", problem)
-        self.assertEqual(rules.missing_harnesses(unit, {"keel_box_put": "why"}, self.root), [])
+        self.assertEqual(
+            completeness.missing_harnesses(unit, {"keel_box_put": "why"}, self.root), []
+        )
 
     def test_a_needless_exception_is_a_failure(self) -> None:
-        [problem] = rules.missing_harnesses(self.unit, {"keel_box_put": "why"}, self.root)
+        [problem] = completeness.missing_harnesses(self.unit, {"keel_box_put": "why"}, self.root)
         self.assertIn("no exception any more", problem)
 
     def test_a_contract_without_body_is_a_failure(self) -> None:
-        self.assertEqual(rules.undefined_functions(self.unit, {}, self.root), [])
+        self.assertEqual(completeness.undefined_functions(self.unit, {}, self.root), [])
         self.unit.source.write_text('#include "keel/rtos/box.h"\n', encoding="utf-8")
-        [problem] = rules.undefined_functions(self.unit, {}, self.root)
+        [problem] = completeness.undefined_functions(self.unit, {}, self.root)
         self.assertIn("keel_box_put has a contract and no body", problem)
-        self.assertEqual(rules.undefined_functions(self.unit, {"keel_box_put": "w"}, self.root), [])
+        self.assertEqual(
+            completeness.undefined_functions(self.unit, {"keel_box_put": "w"}, self.root), []
+        )
 
     def test_what_wp_leaves_must_be_covered_by_a_harness(self) -> None:
-        self.assertEqual(rules.left_by_wp(self.unit, {"keel_box_put": "why"}, self.root), [])
-        [problem] = rules.left_by_wp(self.unit, {"helper": "why"}, self.root)
+        self.assertEqual(completeness.left_by_wp(self.unit, {"keel_box_put": "why"}, self.root), [])
+        [problem] = completeness.left_by_wp(self.unit, {"helper": "why"}, self.root)
         self.assertIn("helper is proved by neither engine", problem)
-        [problem] = rules.left_by_wp(self.unit, {"gone": "why"}, self.root)
+        [problem] = completeness.left_by_wp(self.unit, {"gone": "why"}, self.root)
         self.assertIn("there is no function gone", problem)
 
     def test_assumptions_are_failures(self) -> None:
         self.unit.source.write_text("//@ admit x;\n#ifdef __FRAMAC__\n#endif\n", encoding="utf-8")
-        self.assertEqual(len(rules.assumptions_in([self.unit.source], self.root)), 2)
+        self.assertEqual(len(completeness.assumptions_in([self.unit.source], self.root)), 2)
         self.unit.source.write_text("#pragma CPROVER check disable\n", encoding="utf-8")
-        self.assertEqual(len(rules.switched_off_checks([self.unit.source], self.root)), 1)
+        self.assertEqual(len(completeness.switched_off_checks([self.unit.source], self.root)), 1)
 
     def test_an_exception_needs_a_reason(self) -> None:
         path = self.root / "units.toml"
@@ -1091,7 +1092,7 @@ class WrongBodies(TreeTest):
 
     def jobs(self) -> list[driver.Job]:
         checker = cbmc.Cbmc(["goto-cc"], ["cbmc"], Runner({}, self.root), self.root, self.root)
-        return engines.cbmc_jobs([self.unit], checker, self.root, {})
+        return job_list.cbmc_jobs([self.unit], checker, self.root, {})
 
     def assert_refused(self, text: str, why: str, place: str = ":3: zero: ") -> None:
         with self.assertRaisesRegex(ProjectError, f"^proofs/box/wrong.toml{place}.*{why}"):

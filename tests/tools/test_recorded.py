@@ -17,9 +17,7 @@ from test_prove import GOALS, GOOD, TreeTest, WholeRunCase, wp_log, wp_report
 from keel.base.jobs import Finished, Runner
 from keel.c.project import ProjectError
 from keel.engines import wp
-from keel.judge import goals
-from keel.judge import wp_targets as targets
-from keel.judge import wp_verdict as verdict
+from keel.judge import goals, wp_targets, wp_verdict
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -55,9 +53,9 @@ class Lists(TreeTest):
 
 
 class Judgement(TreeTest):
-    def judge(self, log: str, report: str, recorded: dict[str, str]) -> targets.Result:
-        target = targets.Target(self.unit, self.unit.source, PUT)
-        return verdict.judge(target, log, report, self.root, (), recorded, frozenset([2]))
+    def judge(self, log: str, report: str, recorded: dict[str, str]) -> wp_targets.Result:
+        target = wp_targets.Target(self.unit, self.unit.source, PUT)
+        return wp_verdict.judge(target, log, report, self.root, (), recorded, frozenset([2]))
 
     def test_what_only_a_search_for_dead_branches_proves_is_pruned(self) -> None:
         running = "[wp] Running WP plugin..."
@@ -119,8 +117,8 @@ class Asking(TreeTest):
         frama_c += ["-load-script", str(self.root / "m.ml")]
         runner = Runner({}, self.root)
         self.prover = wp.Wp(frama_c, runner, self.root, self.root, ocamlfind=["true"])
-        self.function = targets.Target(self.unit, self.unit.source, PUT)
-        self.lemmas = targets.Target(self.unit, self.unit.source, None, ("BOX_two",))
+        self.function = wp_targets.Target(self.unit, self.unit.source, PUT)
+        self.lemmas = wp_targets.Target(self.unit, self.unit.source, None, ("BOX_two",))
 
     def asked(self, recorded: dict[str, str]) -> list[str]:
         (self.root / "asked").unlink(missing_ok=True)
@@ -133,7 +131,7 @@ class Asking(TreeTest):
 
     def test_lemmas_of_several_provers_have_a_pass_each(self) -> None:
         names = ("BOX_one", "BOX_two", "BOX_three")
-        lemmas = targets.Target(self.unit, self.unit.source, None, names)
+        lemmas = wp_targets.Target(self.unit, self.unit.source, None, names)
         recorded = {f"lemma_{name}": "cvc4" for name in names} | {"lemma_BOX_two": "z3"}
         run = mock.Mock(return_value=Finished(0, ""))
         with mock.patch.object(Runner, "run", run):
@@ -221,8 +219,8 @@ class Recording(WholeRunCase):
     def test_a_prover_that_would_be_asked_in_vain_is_not_recorded(self) -> None:
         self.unit.goal_list.write_text(f"{PUT}_assigns alt-ergo\n", encoding="utf-8")
 
-        def late(*arguments: Any) -> targets.Result:
-            result = verdict.judge(*arguments)
+        def late(*arguments: Any) -> wp_targets.Result:
+            result = wp_verdict.judge(*arguments)
             result.pruned = [f"{PUT}_assigns"]
             return result
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from keel.base.run import output_of
-from keel.flight import device_frames as frames
+from keel.flight import device_frames
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -119,7 +119,7 @@ class Frames(unittest.TestCase):
         """tools/keel/flight/device_frames.py, which sends the frames in simulated flights."""
         for failsafe in (False, True):
             pulses = [988, 1500, 2012, 1000, 2000, 1050, 1501, 1499]
-            frame = frames.sbus(pulses, failsafe)
+            frame = device_frames.sbus(pulses, failsafe)
             self.assertEqual(self.feed(frame, SILENT_US), [24])
             channels, flags = self.says()
             self.assertEqual([880 + (5 * value + 4) // 8 for value in channels[:8]], pulses)

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from keel.install import Toolchain
 from keel.install.lock import Lock
-from keel.prove import verdict_keys as stamps
+from keel.prove import verdict_keys
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -47,17 +47,17 @@ class Proofs(Copied):
 
     def voided(self, name: str) -> list[str]:
         """The engines of which no verdict holds any more when a file of the tools changes."""
-        return self.changed_by(name, stamps.own_digest, ENGINES)
+        return self.changed_by(name, verdict_keys.own_digest, ENGINES)
 
     def test_who_asks_one_engine_judges_for_that_one(self) -> None:
-        for engine, names in stamps.ASKERS.items():
+        for engine, names in verdict_keys.ASKERS.items():
             for name in names:
                 self.assertEqual(self.voided(name), [engine], name)
 
     def test_what_serves_several_engines_judges_for_all(self) -> None:
         room = [f"judge/{path.name}" for path in (self.tools / "keel/judge").glob("*.py")]
         self.assertGreater(len(room), 5)
-        for name in (*stamps.READERS, *room):
+        for name in (*verdict_keys.READERS, *room):
             self.assertEqual(self.voided(name), list(ENGINES), name)
 
     def test_who_tells_what_others_found_judges_nothing(self) -> None:
@@ -78,7 +78,7 @@ class Proofs(Copied):
     def test_every_tool_counts_for_the_engines_that_may_start_it(self) -> None:
         stamp = dict.fromkeys(Toolchain().versions("prove"), "1")
         used = {
-            name: [engine for engine in ENGINES if name in stamps.started(engine, stamp)]
+            name: [engine for engine in ENGINES if name in verdict_keys.started(engine, stamp)]
             for name in stamp
         }
         self.assertEqual(used["frama-c"], ["wp"])
@@ -92,7 +92,7 @@ class Proofs(Copied):
 
     def test_what_is_said_not_to_be_started_is_a_tool(self) -> None:
         known = set(Lock.read().tools) | {"machdep"}
-        for names in stamps.NOT_STARTED.values():
+        for names in verdict_keys.NOT_STARTED.values():
             self.assertLessEqual(set(names), known)
 
 
@@ -101,7 +101,7 @@ class Mutants(Copied):
 
     def voided(self, name: str) -> list[str]:
         """The engines by which no verdict holds any more when a file of the tools changes."""
-        return self.changed_by(name, stamps.mutants_digest, stamps.MUTANT_JUDGES)
+        return self.changed_by(name, verdict_keys.mutants_digest, verdict_keys.MUTANT_JUDGES)
 
     def test_another_judge_may_say_something_else(self) -> None:
         for name in (

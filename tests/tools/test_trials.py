@@ -28,7 +28,7 @@ from keel.mutate.mutation import BY_CBMC, BY_WP, NO_ANSWER, Tools, Trial
 from keel.mutate.operators import Mutant
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import Identity, Verdict, report, standing, table
-from keel.prove import job_list as engines
+from keel.prove import job_list
 from keel.prove.times import Times
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -236,7 +236,7 @@ class Unchanged(TrialCase):
             ("goto-cc",), ("cbmc",), jobs.Runner({}, self.root), self.root, self.root
         )
         read = harness.read_harness(self.unit, self.unit.folder / "keel_box_put_harness.c")
-        key = engines.cbmc_key(read, checker, self.root, {"tool": "t", "driver": "d"})
+        key = job_list.cbmc_key(read, checker, self.root, {"tool": "t", "driver": "d"})
         self.assertEqual([path.stem for path in (self.root / "verdicts").iterdir()], [key])
         self.assertEqual(proofs.count("keel_box_put_harness"), 1)
         self.assertEqual(proofs.count("keel_box_put__slow_harness"), 2)

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from keel.base.run import output_of
-from keel.flight import device_frames as frames
+from keel.flight import device_frames
 from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -295,7 +295,7 @@ class Messages(unittest.TestCase):
             place, speed = (draw(-90, 90), draw(-180, 180)), (draw(-9, 9), draw(-9, 9), draw(-9, 9))
             tow, height, fixed = self.random.randrange(604800000), draw(-99, 999), draw(0, 1) < 0.7
             accuracy, pace = draw(0, 99), draw(0, 9)
-            data = frames.nav_pvt(tow, place, height, speed, accuracy, pace, fixed)
+            data = device_frames.nav_pvt(tow, place, height, speed, accuracy, pace, fixed)
             parsed = self.pyubx2.UBXReader.parse(data)  # Refuses a wrong checksum.
             self.assertEqual((parsed.identity, parsed.iTOW), ("NAV-PVT", tow))
             self.assertEqual((parsed.fixType, parsed.gnssFixOk), (3, 1) if fixed else (0, 0))

@@ -17,7 +17,7 @@ from keel.audit.unused import DEFINITION
 from keel.c import source as csource
 from keel.c.declarations import Signature, Structures, closing, macros, read, split
 from keel.c.project import Unit, closure, include_folders
-from keel.judge import wp_frames as frames
+from keel.judge import wp_frames
 
 CLAUSE = re.compile(r"\b(requires|assumes|assigns|ensures|behavior|complete|disjoint)\b")
 LABEL = re.compile(r"\s*([A-Z]{3,4}_\d{3}\w*)\s*:")
@@ -76,7 +76,7 @@ def _contract(unit: Unit, function: str, texts: Iterable[str]) -> _Contract:
             contract
             for path in unit.own_files
             if path.suffix == ".h"
-            for name, contract in frames.contracts(csource.read(path))
+            for name, contract in wp_frames.contracts(csource.read(path))
             if name == function
         ),
         "",

@@ -10,7 +10,7 @@ from pathlib import Path
 from keel.audit.clauses import CLAUSE
 from keel.c import source as csource
 from keel.c.project import Unit
-from keel.judge import wp_frames as frames
+from keel.judge import wp_frames
 from keel.judge.harness import read_harness
 
 
@@ -82,7 +82,7 @@ def without_contract(unit: Unit, root: Path) -> list[str]:
     return [
         f"{unit.header.relative_to(root)}:{lines[name]}: {name} has no contract: write /*@ requires"
         " ...; assigns ...; ensures ...; */ before it"
-        for name, annotations in frames.contracts(text)
+        for name, annotations in wp_frames.contracts(text)
         if name in lines and not CLAUSE.search(annotations)
     ]
 

@@ -21,8 +21,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from keel.audit import clauses, similarity
-from keel.audit import harness_inputs as inputs
+from keel.audit import clauses, harness_inputs, similarity
 from keel.audit.harness_equality import Reader, Reading, loops
 from keel.audit.harness_inputs import BOUND, CHOSEN, EVERY, Inputs
 from keel.base.files import write_text
@@ -91,8 +90,8 @@ class Decider:
         self._units = find_units(root)
         self._exceptions = read_exceptions(root / "proofs" / "units.toml", list(self._units))
         self._known = structures(headers)
-        self._parts = inputs.read_preconditions(root / inputs.TABLE)
-        self._reader = inputs.Reader(root, macros(headers), self._parts)
+        self._parts = harness_inputs.read_preconditions(root / harness_inputs.TABLE)
+        self._reader = harness_inputs.Reader(root, macros(headers), self._parts)
         self._signatures: dict[str, Signature] = {}
         for text in headers:
             self._signatures |= signatures(text)

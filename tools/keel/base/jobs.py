@@ -14,7 +14,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Protocol, TypeVar
 
-from keel.base import process_limits as limits
+from keel.base import process_limits
 
 T = TypeVar("T")
 
@@ -57,7 +57,7 @@ class Runner:
         """
         process = self._start(command, merged, {**self._environment, **(extra or {})})
         try:
-            output, _ = limits.communicate(process, timeout)
+            output, _ = process_limits.communicate(process, timeout)
             return Finished(process.returncode, output)
         except subprocess.TimeoutExpired:
             self._kill(process)

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from keel.base import process_limits as limits
+from keel.base import process_limits
 from keel.base.errors import ROOT, ToolError
 
 TIMEOUT_S = 300.0
@@ -151,7 +151,7 @@ def run(
 def _end_of(child: subprocess.Popen[str], timeout_s: float | None) -> Ended:
     """Wait for the end of a program, or make one."""
     try:
-        output, errors = limits.communicate(child, timeout_s)
+        output, errors = process_limits.communicate(child, timeout_s)
     except BaseException as error:
         # The whole session: a child of the program would keep the pipe open.
         os.killpg(child.pid, signal.SIGKILL)

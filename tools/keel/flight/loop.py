@@ -18,8 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from keel.flight import device_frames as frames
-from keel.flight import plants, wind
+from keel.flight import device_frames, plants, wind
 from keel.flight.faults import Faults
 from keel.flight.library import Copter, Key, Link, checks_of, facts_of, modes, states
 from keel.flight.pilot import Pilot, Sight
@@ -30,7 +29,7 @@ from keel.flight.scenario import Quality, Scenario
 from keel.flight.sensors import Broken, Inertial, Slow
 
 ROW_MS = 5  # A row of the trace.
-RADIO_FRAMES = {"sbus": frames.sbus, "crsf": frames.crsf, "ibus": frames.ibus}
+RADIO_FRAMES = {"sbus": device_frames.sbus, "crsf": device_frames.crsf, "ibus": device_frames.ibus}
 WIND_MS = round(1000 * wind.PERIOD_S)
 POWER_MS = 10
 ARMS_WITHIN_S = 30.0

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from keel.flight import device_frames as frames
+from keel.flight import device_frames
 from keel.flight.plants import (
     EAST_M,
     HOME_ALTITUDE_M,
@@ -298,7 +298,9 @@ class Slow:
     def _satellites(self, now_ms: int, plant: Plant, broken: Broken) -> None:
         drawn = self._gps_rng.standard_normal(6)
         if broken.gps_lost:
-            nowhere = frames.nav_pvt(now_ms, (0.0, 0.0), 0.0, (0.0, 0.0, 0.0), 99.0, 9.0, False)
+            nowhere = device_frames.nav_pvt(
+                now_ms, (0.0, 0.0), 0.0, (0.0, 0.0, 0.0), 99.0, 9.0, False
+            )
             self._late.append((now_ms + self._quality.gps_delay_ms, nowhere))
             return
         truth = plant.truth()
@@ -313,7 +315,7 @@ class Slow:
             truth.speed[1] + quality * SPEED_NOISE * drawn[5],
             -truth.speed[2],
         )
-        fix = frames.nav_pvt(
+        fix = device_frames.nav_pvt(
             now_ms, place, HOME_ALTITUDE_M + truth.place[2], speed, 0.8 * max(1.0, quality), 0.2
         )
         self._late.append((now_ms + self._quality.gps_delay_ms, fix))

@@ -18,7 +18,7 @@ from keel.c.declarations import structures
 from keel.c.project import Unit
 from keel.engines.cbmc import Cbmc
 from keel.engines.wp import Wp
-from keel.judge import wp_frames as frames
+from keel.judge import wp_frames
 from keel.judge.cbmc_answers import Answer
 from keel.judge.goals import read_goals
 from keel.judge.harness import Harness, read_harness
@@ -228,4 +228,4 @@ def _target_of(subject: Subject, exceptions: Exceptions) -> Target | None:
         )
     ]
     best = max(fits, key=lambda target: len(target.name), default=None)
-    return frames.restricted(best, exceptions) if best else None
+    return wp_frames.restricted(best, exceptions) if best else None

@@ -12,9 +12,7 @@ from keel.base.verdict_cache import digest
 from keel.c import source as csource
 from keel.c.project import KEEL, ProjectError, Unit, closure, shown
 from keel.engines import cbmc, gappa, wp
-from keel.judge import wp_frames as frames
-from keel.judge import wp_targets as targets
-from keel.judge import wp_verdict as verdict
+from keel.judge import wp_frames, wp_targets, wp_verdict
 from keel.judge.goals import read_goals
 from keel.judge.harness import Harness, harnesses_of, read_harness
 from keel.judge.settings import Exceptions
@@ -30,15 +28,15 @@ def wp_jobs(
     stamp: Mapping[str, str],
     exceptions: Mapping[str, Exceptions],
     stages: Sequence[wp.Stage] = wp.THOROUGH,
-    printed: Callable[[targets.Target], str] = lambda _: "",
+    printed: Callable[[wp_targets.Target], str] = lambda _: "",
 ) -> list[Job]:
     """A job for each function, and for the lemmas, of the units; `printed` is what WP prints."""
     jobs = []
     for unit in units:
         allowed = list(exceptions[unit.name].warnings)
         recorded = read_goals(unit.goal_list, shown(unit.goal_list, root)).provers
-        for whole in targets.targets(unit):
-            target = frames.restricted(whole, exceptions[unit.name])
+        for whole in wp_targets.targets(unit):
+            target = wp_frames.restricted(whole, exceptions[unit.name])
 
             execute = functools.partial(_prove, prover, printed, target, stages, allowed, recorded)
             key = functools.partial(wp_key, target, prover, root, stamp, allowed)
@@ -54,8 +52,8 @@ def placeless(options: Iterable[str], root: Path) -> list[str]:
 
 def _prove(
     prover: wp.Wp,
-    printed: Callable[[targets.Target], str],
-    target: targets.Target,
+    printed: Callable[[wp_targets.Target], str],
+    target: wp_targets.Target,
     stages: Sequence[wp.Stage],
     allowed: Sequence[str],
     recorded: Mapping[str, str],
@@ -67,7 +65,7 @@ def _prove(
 
 
 def wp_key(
-    target: targets.Target,
+    target: wp_targets.Target,
     prover: wp.Wp,
     root: Path,
     stamp: Mapping[str, str],
@@ -81,7 +79,7 @@ def wp_key(
             "options": placeless(prover.options(), root),
             "selection": target.selection,
             "allowed": list(allowed),
-            "text": targets.dependencies(target, root),
+            "text": wp_targets.dependencies(target, root),
             "file": target.file.name,
         }
     )
@@ -100,12 +98,12 @@ def survey_jobs(
     jobs = []
     elsewhere = known.union(*(one.no_body for one in exceptions.values()))
     for unit in units:
-        for file in (targets.translation_unit(unit), *unit.theorems):
+        for file in (wp_targets.translation_unit(unit), *unit.theorems):
 
             def execute(_room: int, file: Path = file) -> dict[str, Any]:
                 log = prover.survey(file)
-                problems = verdict.survey_problems(log, shown(file, root), elsewhere)
-                return targets.Result(problems=problems).as_dict()
+                problems = wp_verdict.survey_problems(log, shown(file, root), elsewhere)
+                return wp_targets.Result(problems=problems).as_dict()
 
             def key(file: Path = file) -> str:
                 files = closure(root, [file])

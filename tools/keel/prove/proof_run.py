@@ -12,8 +12,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from keel.audit import assertions, clauses, determined, disguises, harness_rules, theorems, unused
-from keel.audit import completeness as rules
+from keel.audit import (
+    assertions,
+    clauses,
+    completeness,
+    determined,
+    disguises,
+    harness_rules,
+    theorems,
+    unused,
+)
 from keel.base.files import write_text
 from keel.base.jobs import Runner
 from keel.base.verdict_cache import Cache
@@ -21,7 +29,7 @@ from keel.c import source as csource
 from keel.c.project import KEEL, RECORDED_TIMES, ProjectError, Unit, closure, find_units
 from keel.engines import cbmc, gappa, wp
 from keel.install import Toolchain, small_environment
-from keel.judge import wp_frames as frames
+from keel.judge import wp_frames
 from keel.judge.goals import PRUNED, as_text, read_goals, short_name
 from keel.judge.harness import read_harness, unchecked
 from keel.judge.settings import Exceptions, read_exceptions
@@ -183,7 +191,9 @@ class Session:
     def _need_contracts(self) -> None:
         """Ask no prover for what no contract says."""
         lacking = [
-            text for unit in self._choice.units for text in rules.without_contract(unit, self._root)
+            text
+            for unit in self._choice.units
+            for text in completeness.without_contract(unit, self._root)
         ]
         if lacking:
             raise ProjectError("\n".join(lacking))
@@ -273,12 +283,12 @@ class Session:
         root = self._root
         own = [path for unit in self._choice.units for path in (*unit.own_files, *unit.theorems)]
         shared = [*(root / "include").glob("keel/*.h"), *(root / "specs").glob("**/*.[ch]")]
-        gathered.problems += rules.assumptions_in([*own, *sorted(shared)], root)
+        gathered.problems += completeness.assumptions_in([*own, *sorted(shared)], root)
         everything = find_units(root)
-        gathered.problems += rules.endless(
+        gathered.problems += completeness.endless(
             path for unit in everything.values() for path in (*unit.own_files, *unit.theorems)
         )
-        gathered.problems += rules.strays(root, everything.values())
+        gathered.problems += completeness.strays(root, everything.values())
         allowed = read_exceptions(self._exceptions, list(everything))
         accepted = {text for one in allowed.values() for text in one.conditionals}
         gathered.problems += disguises.problems(root, accepted)
@@ -291,14 +301,14 @@ class Session:
             unit, exceptions = result.unit, result.exceptions
             result.outcomes = decider.outcomes(unit)
             result.problems += [text for one in result.outcomes for text in one.problems]
-            result.problems += rules.undefined_functions(unit, exceptions.no_body, root)
-            result.problems += rules.left_by_wp(unit, exceptions.not_by_wp, root)
-            result.problems += frames.problems(unit, exceptions, find_units(root).values())
+            result.problems += completeness.undefined_functions(unit, exceptions.no_body, root)
+            result.problems += completeness.left_by_wp(unit, exceptions.not_by_wp, root)
+            result.problems += wp_frames.problems(unit, exceptions, find_units(root).values())
             if "cbmc" in self._choice.engines:
                 files = [path for path in closure(root, unit.harnesses) if "proofs" in path.parts]
-                result.problems += rules.switched_off_checks(files, root)
+                result.problems += completeness.switched_off_checks(files, root)
                 result.problems += unchecked(read_harness(unit, path) for path in unit.harnesses)
-                result.problems += rules.missing_harnesses(unit, exceptions.no_harness, root)
+                result.problems += completeness.missing_harnesses(unit, exceptions.no_harness, root)
                 self._check_assertions(result)
             if "wp" in self._choice.engines:
                 self._check_warnings(result)
@@ -333,7 +343,7 @@ class Session:
             self._update_goal_list(result, seen, path)
         if path.is_file():
             result.listed = read_goals(path, shown).names
-            result.problems += rules.compare_goals(result.listed, seen, shown)
+            result.problems += completeness.compare_goals(result.listed, seen, shown)
         else:
             result.problems.append(f"{shown} is missing: review the goals, run --update-goals")
 

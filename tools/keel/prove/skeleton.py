@@ -25,7 +25,7 @@ from keel.c.declarations import (
     structures,
 )
 from keel.c.project import ProjectError, Unit
-from keel.judge import wp_frames as frames
+from keel.judge import wp_frames
 
 # REUSE-IgnoreStart
 HEAD = "/* SPDX-License-Identifier: Apache-2.0 */\n"
@@ -67,7 +67,7 @@ def read_unit(unit: Unit, prefix: str) -> Skeleton:
     functions = {name: one for name, one in signatures(text).items() if name not in static}
     if not functions:
         raise ProjectError(f"{unit.header.relative_to(unit.root)}: there is no prototype in it")
-    contracts = dict(frames.contracts(text))
+    contracts = dict(wp_frames.contracts(text))
     labels = {}
     for position, name in enumerate(functions, 1):
         own = re.search(r"\b([A-Z]{3,4}_\d{3})\w*\s*:", contracts.get(name, ""))

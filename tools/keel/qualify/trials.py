@@ -29,7 +29,7 @@ from keel.engines.cbmc import CHECKS as CBMC_CHECKS
 from keel.engines.wp import OWN, SMOKE, SMOKE_OF_FLOATS
 from keel.install import MACHDEP_FILE, TARGET_FLAGS, Toolchain, small_environment
 from keel.install.provers import CLOCK_PER_PROCESSOR
-from keel.judge import wp_targets as targets
+from keel.judge import wp_targets
 from keel.judge.wp_log import read_log
 from keel.test.emulated import EmulatedBoard
 
@@ -127,8 +127,8 @@ def keys(tools: Toolchain, file: Path, option: str) -> list[str]:
     made = []
     for state in file.read_text(encoding="utf-8").split("-----\n"):
         write_text(root / "include/limit.h", state)
-        [function] = [one for one in targets.targets(unit) if one.function]
-        made.append(targets.dependencies(function, root))
+        [function] = [one for one in wp_targets.targets(unit) if one.function]
+        made.append(wp_targets.dependencies(function, root))
     return ["another key"] if made[0] != made[1] else []
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from keel.base.errors import ToolError
-from keel.flight import device_frames as frames
+from keel.flight import device_frames
 from keel.flight.library import Copter, Link
 from keel.flight.receivers import SATELLITES, Receiver
 from keel.replay.recording import Recording, Series
@@ -97,7 +97,7 @@ def fixes_at(series: Series | None, ticks: Any) -> dict[int, bytes]:
     for time, row in zip(*series, strict=True) if series else ():
         tick = int(np.searchsorted(ticks, time))
         latitude, longitude, height, north, east, down, accuracy, pace = (float(one) for one in row)
-        found[tick] = frames.nav_pvt(
+        found[tick] = device_frames.nav_pvt(
             tick, (latitude, longitude), height, (north, east, down), accuracy, pace
         )
     return found

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from keel.timing import textbook_tests as textbook
+from keel.timing import textbook_tests
 from keel.timing.isolation import Isolation, isolation_of
 from keel.timing.scheduler_bounds import Bounds, Tails, bounds_of, collisions, declared, path_bound
 from keel.timing.taskset import CLASSES, Task, TaskSet
@@ -119,7 +119,7 @@ class Analysis:
     others: ClassLoad
     total: ClassLoad
     published: dict[str, float | None] | None
-    jeffay: textbook.Jeffay
+    jeffay: textbook_tests.Jeffay
     realtime_rows: list[RealtimeRow]
     other_rows: list[OtherRow]
     promotion_excluded: bool
@@ -173,17 +173,17 @@ def class_load(name: str, tasks: list[Task]) -> ClassLoad:
     return ClassLoad(
         name,
         len(tasks),
-        float(textbook.utilisation(tasks)),
-        textbook.liu_layland(len(tasks)),
-        textbook.hyperbolic(tasks),
+        float(textbook_tests.utilisation(tasks)),
+        textbook_tests.liu_layland(len(tasks)),
+        textbook_tests.hyperbolic(tasks),
     )
 
 
 def realtime_rows(tasks: TaskSet, found: Bounds) -> list[RealtimeRow]:
     """Response times of the real-time tasks."""
     outside = max((task.budget for task in tasks.others), default=0)
-    unguarded = textbook.fixed_priority(tasks.realtime, outside)
-    guarded = textbook.fixed_priority(tasks.realtime, 0)
+    unguarded = textbook_tests.fixed_priority(tasks.realtime, outside)
+    guarded = textbook_tests.fixed_priority(tasks.realtime, 0)
     return [
         RealtimeRow(
             task.label,
@@ -272,9 +272,9 @@ def chain_rows(tasks: TaskSet, found: Bounds) -> list[ChainRow]:
             ChainRow(
                 chain.name,
                 [task.label for task in path],
-                textbook.reaction(path),
+                textbook_tests.reaction(path),
                 chain.reaction_limit_us,
-                textbook.freshness(path),
+                textbook_tests.freshness(path),
                 chain.freshness_limit_us,
                 bound.total,
                 bound.followed,
@@ -344,7 +344,7 @@ def other_reasons(found: Bounds) -> Iterator[str]:
 def reasons(tasks: TaskSet, found: Bounds, chains: list[ChainRow]) -> Iterator[tuple[str, str]]:
     """Why the set is not schedulable, or not shown to be: how it stands by that, and the reason,
     most basic first."""
-    total = textbook.utilisation(tasks.tasks)
+    total = textbook_tests.utilisation(tasks.tasks)
     if total > 1:
         yield IMPOSSIBLE, f"utilisation is {100.0 * float(total):.2f} %, above 100 % (eq. 11)"
     yield from ((REFUSED, text) for text in admission_reasons(tasks))
@@ -379,7 +379,7 @@ def analyse(tasks: TaskSet) -> Analysis:
         others=class_load("others (EDF)", tasks.others),
         total=class_load("all", list(tasks.tasks)),
         published=published,
-        jeffay=textbook.jeffay(tasks.tasks),
+        jeffay=textbook_tests.jeffay(tasks.tasks),
         realtime_rows=realtime_rows(tasks, found),
         other_rows=other_rows(tasks, found),
         promotion_excluded=found.promotion_excluded,
@@ -387,7 +387,7 @@ def analyse(tasks: TaskSet) -> Analysis:
         collisions=[(one.label, two.label) for one, two in collisions(tasks)],
         gaps=gaps_of(tasks),
         chains=chains,
-        hyperperiod=textbook.hyperperiod(tasks.tasks),
+        hyperperiod=textbook_tests.hyperperiod(tasks.tasks),
         standing=why[0][0] if why else SCHEDULABLE,
         reasons=[text for _, text in why],
     )

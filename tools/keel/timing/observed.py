@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from keel.timing import textbook_tests as textbook
+from keel.timing import textbook_tests
 from keel.timing.experiments import GOAL_MODEL, MODELS, Deviations, Findings, variants
 from keel.timing.output import Cell
 from keel.timing.phases import without_phases
@@ -26,7 +26,7 @@ def show_load(tasks: TaskSet, results: Deviations, findings: Findings) -> None:
             rows.append([f"{name}, {model}", idle, *loads])
     columns = ["", "idle of 100 000 us", "load, %", "highest load of a window, %"]
     findings.show("CPU load (eq. 13, 14), passes that run a task included", columns, rows)
-    total = 100.0 * float(textbook.utilisation(tasks.tasks))
+    total = 100.0 * float(textbook_tests.utilisation(tasks.tasks))
     findings.say("Passes that run nothing count as idle, as the kernel counts them.")
     findings.say(
         f"Table 2's budgets alone are {total:.2f} %; the paper's load means that its tasks took "
@@ -72,11 +72,11 @@ def show_paths(tasks: TaskSet, results: Deviations, findings: Findings) -> None:
                 chain.name,
                 phased.reaction,
                 together.reaction,
-                textbook.reaction(path),
+                textbook_tests.reaction(path),
                 chain.reaction_limit_us,
                 phased.freshness,
                 together.freshness,
-                textbook.freshness(path),
+                textbook_tests.freshness(path),
                 chain.freshness_limit_us,
             ]
         )

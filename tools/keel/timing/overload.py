@@ -6,7 +6,7 @@ from __future__ import annotations
 import time
 from dataclasses import replace
 
-from keel.timing import textbook_tests as textbook
+from keel.timing import textbook_tests
 from keel.timing.board import Experiment, Result, run_batch
 from keel.timing.experiments import GOAL_MODEL, HOUR_GOAL_S, SECOND, Findings, Runner
 from keel.timing.output import Cell
@@ -22,8 +22,8 @@ def overloaded(tasks: TaskSet, percent: int) -> TaskSet:
 
     Without phases, which belong to the periods.
     """
-    realtime = float(textbook.utilisation(tasks.realtime))
-    factor = (percent / 100 - realtime) / float(textbook.utilisation(tasks.others))
+    realtime = float(textbook_tests.utilisation(tasks.realtime))
+    factor = (percent / 100 - realtime) / float(textbook_tests.utilisation(tasks.others))
     changed = [
         task if task.realtime else replace(task, period=max(1, round(task.period / factor)))
         for task in without_phases(tasks).tasks

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 
 from rich.console import Console
 
-from keel.timing import textbook_tests as textbook
+from keel.timing import textbook_tests
 from keel.timing.analysis import LOAD_ALARM, LOAD_TARGET, Analysis, analyse
 from keel.timing.output import Cell, table
 from keel.timing.scheduler_bounds import declared
@@ -57,9 +57,9 @@ def with_periods(tasks: TaskSet, periods: dict[str, int]) -> TaskSet:
 def keeps_limits(tasks: TaskSet) -> bool:
     """Whether eq. 5 to 7 and the sums of periods are within the limits of judged paths."""
     return all(
-        textbook.reaction(path) <= chain.reaction_limit_us
+        textbook_tests.reaction(path) <= chain.reaction_limit_us
         and sum(task.period for task in path) <= chain.reaction_limit_us
-        and textbook.freshness(path) <= chain.freshness_limit_us
+        and textbook_tests.freshness(path) <= chain.freshness_limit_us
         for chain in tasks.chains
         if not chain.advisory and (path := tasks.path(chain))
     )
@@ -158,7 +158,7 @@ def print_synthesis(found: Synthesis, out: Console) -> None:
     out.print(
         table("Paths with these periods, us", ["path", "E", "limit", "F", "limit", ""], chains)
     )
-    before = float(textbook.utilisation(found.before.tasks))
+    before = float(textbook_tests.utilisation(found.before.tasks))
     out.print(f"Utilisation as given: {margin(before)}.")
     out.print(f"With the periods found: {margin(found.analysis.total.utilisation)}.")
     ratio = math.floor(10000 * found.spare_us / SPARE_PERIOD) / 100

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from keel.c import source as csource
 from keel.c.declarations import macros
-from keel.judge import wp_frames as frames
+from keel.judge import wp_frames
 
 LABEL = re.compile(r"\bensures\s+([A-Z]{3,4})_(\d{3})(?:_\w+)?\s*:")
 
@@ -40,7 +40,7 @@ def read_functions(root: Path) -> list[Function]:
     short = {name: text for name, (_, text) in macros(texts).items()}
     labels: dict[str, tuple[str, ...]] = {}
     for text in texts:
-        for name, contract in frames.contracts(text):
+        for name, contract in wp_frames.contracts(text):
             labels[name] = labels.get(name, ()) + _uids(contract, short)
     found = []
     for path in headers + sources:
