@@ -38,8 +38,10 @@ static void set_fields(copter_settings_t *settings, const keel_parameter_entry_t
 static keel_status_t try_units(const copter_settings_t *tried)
 {
     static units_t unit;
-    const keel_mixer_config_t mixer = {
-        .geometry = keel_mixer_quad_x, .idle = tried->mixer.idle, .highest = tried->mixer.highest};
+    const keel_mixer_config_t mixer = {.geometry = keel_mixer_quad_x,
+                                       .idle = tried->mixer.idle,
+                                       .highest = tried->mixer.highest,
+                                       .yaw_share = tried->mixer.yaw_share};
     const keel_status_t status[] = {
         keel_virtual_imu_init(&unit.imu, &tried->imu),
         keel_virtual_imu_init(&unit.slow, &tried->slow),

@@ -200,7 +200,7 @@ const copter_settings_t copter_defaults = {
          .acceleration = 4.0f,
          .braking = 1.5f,
          .reaction_s = 0.5f},
-    .mixer = {.idle = 0.05f, .highest = 1.0f},
+    .mixer = {.idle = 0.05f, .highest = 1.0f, .yaw_share = 0.1f},
     .load_limit_ppm = 500000u,
     .level = 0.94f,
     .ground_least = 55000.0f, /* Half of the greatest, and 4860 m in the standard atmosphere. */

@@ -29,7 +29,8 @@ static bool config_valid_here(const keel_mixer_config_t *config)
     bool valid = (config->geometry.motors >= KEEL_MIXER_MOTORS_MIN) &&
                  (config->geometry.motors <= KEEL_MIXER_MOTORS) &&
                  between(config->idle, KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX) &&
-                 between(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f);
+                 between(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f) &&
+                 between(config->yaw_share, 0.0f, KEEL_MIXER_YAW_SHARE_MAX);
 
     for (uint32_t i = 0u; i < KEEL_MIXER_MOTORS; i++) {
         const keel_mixer_motor_t *const motor = &config->geometry.motor[i];
@@ -70,7 +71,7 @@ static bool geometry_same(const keel_mixer_geometry_t *x, const keel_mixer_geome
 static bool config_same(const keel_mixer_config_t *x, const keel_mixer_config_t *y)
 {
     return geometry_same(&x->geometry, &y->geometry) && float_same(x->idle, y->idle) &&
-           float_same(x->highest, y->highest);
+           float_same(x->highest, y->highest) && float_same(x->yaw_share, y->yaw_share);
 }
 
 static bool mixer_same(const keel_mixer_t *x, const keel_mixer_t *y)

@@ -47,7 +47,8 @@ keel_status_t model_mixer_check(const keel_mixer_config_t *config)
         return KEEL_ERR_GEOMETRY;
     }
     if (!contains(config->idle, KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX) ||
-        !contains(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f)) {
+        !contains(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f) ||
+        !contains(config->yaw_share, 0.0f, KEEL_MIXER_YAW_SHARE_MAX)) {
         return KEEL_ERR_LIMITS;
     }
     return KEEL_OK;
@@ -95,19 +96,32 @@ static keel_mixer_command_t command_of(const keel_mixer_command_t *command)
                                   part_of(command->yaw, -1.0f), part_of(command->thrust, 0.0f)};
 }
 
-/* MIX-007: thrust, moved as far as roll and pitch need. */
+/* MIX-009: the yaw that thrust gives way to. */
+static float share_of(const keel_mixer_config_t *config, float yaw, float least, float greatest)
+{
+    const float left = 0.5f * ((config->highest - config->idle) - (greatest - least));
+    const float asked = (yaw < 0.0f) ? -yaw : yaw;
+    const float most = (left < config->yaw_share) ? left : config->yaw_share;
+    const float share = (asked < most) ? asked : most;
+
+    return (share > 0.0f) ? share : 0.0f;
+}
+
+/* MIX-007: thrust, moved as far as roll, pitch and the share of yaw need. */
 static float base_of(const keel_mixer_config_t *config, float thrust, float least, float greatest,
-                     uint32_t *limited)
+                     float share, uint32_t *limited)
 {
     const float asked = config->idle + (thrust * (config->highest - config->idle));
+    const float lowest = (config->idle - least) + share;
+    const float highest = (config->highest - greatest) - share;
 
-    if (asked < (config->idle - least)) {
+    if (asked < lowest) {
         *limited |= KEEL_MIXER_RAISED;
-        return config->idle - least;
+        return lowest;
     }
-    if (asked > (config->highest - greatest)) {
-        *limited |= (greatest > 0.0f) ? KEEL_MIXER_LOWERED : 0u;
-        return config->highest - greatest;
+    if (asked > highest) {
+        *limited |= ((greatest > 0.0f) || (share > 0.0f)) ? KEEL_MIXER_LOWERED : 0u;
+        return highest;
     }
     return asked;
 }
@@ -190,7 +204,8 @@ static void turn(keel_mixer_t *mixer, const keel_mixer_command_t *command)
         least = least * scale;
         greatest = greatest * scale;
     }
-    base = base_of(config, wish.thrust, least, greatest, &limited);
+    base = base_of(config, wish.thrust, least, greatest,
+                   share_of(config, wish.yaw, least, greatest), &limited);
     /* MIX-008: yaw, all of it or as much as every motor can do. */
     if (!all_fits(config, tilt, base, wish.yaw, mixer->output)) {
         put_out(config, tilt, base, wish.yaw, &limited, mixer->output);

@@ -149,7 +149,8 @@ keel_status_t keel_mixer_check(const keel_mixer_config_t *config)
         return KEEL_ERR_GEOMETRY;
     }
     return (keel_range_contains(config->idle, KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX) &&
-            keel_range_contains(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f))
+            keel_range_contains(config->highest, KEEL_MIXER_HIGHEST_MIN, 1.0f) &&
+            keel_range_contains(config->yaw_share, 0.0f, KEEL_MIXER_YAW_SHARE_MAX))
                ? KEEL_OK
                : KEEL_ERR_LIMITS;
 }
@@ -287,25 +288,42 @@ static ends_t fit_tilt(const keel_mixer_config_t *config, ends_t ends, float til
     return fitting;
 }
 
-/* The part that all motors share: thrust as asked for, or as near to it as roll and pitch allow. */
+/* The yaw torque that thrust gives way to: its share, as far as roll and pitch leave it room. Some
+ * motors need that upwards and others downwards, so one half of what is left is for each. */
+/*@ requires \valid_read(config) && mixer_range(*config);
+  @ assigns \nothing;
+  @*/
+static float kept_yaw(const keel_mixer_config_t *config, float yaw, ends_t tilt)
+{
+    const float span = config->highest - config->idle;
+    const float left = 0.5f * (span - (tilt.greatest - tilt.least));
+    const float asked = (yaw < 0.0f) ? -yaw : yaw;
+    const float most = (left < config->yaw_share) ? left : config->yaw_share;
+    const float kept = (asked < most) ? asked : most;
+
+    return (kept > 0.0f) ? kept : 0.0f; /* Scaled tilts are rounded to more than the span, too. */
+}
+
+/* The part that all motors share: thrust as asked for, or as near to it as roll, pitch and the yaw
+ * that is kept allow. */
 /*@ requires \valid_read(config) && mixer_range(*config) && \valid(limited);
   @ requires \separated(config, limited);
   @ assigns *limited;
   @*/
-static float fit_thrust(const keel_mixer_config_t *config, float thrust, ends_t tilt,
+static float fit_thrust(const keel_mixer_config_t *config, float thrust, ends_t tilt, float kept,
                         uint32_t *limited)
 {
     const float asked = config->idle + (thrust * (config->highest - config->idle));
-    const float lowest = config->idle - tilt.least;
-    const float highest = config->highest - tilt.greatest;
+    const float lowest = (config->idle - tilt.least) + kept;
+    const float highest = (config->highest - tilt.greatest) - kept;
 
     if (asked < lowest) {
         *limited |= KEEL_MIXER_RAISED;
         return lowest;
     }
     if (asked > highest) {
-        /* Without tilt it is full thrust, rounded upwards: nothing gives way. */
-        *limited |= (tilt.greatest > 0.0f) ? KEEL_MIXER_LOWERED : 0u;
+        /* Without any torque it is full thrust, rounded upwards: nothing gives way. */
+        *limited |= ((tilt.greatest > 0.0f) || (kept > 0.0f)) ? KEEL_MIXER_LOWERED : 0u;
         return highest;
     }
     return asked;
@@ -439,7 +457,7 @@ static void turn_motors(keel_mixer_t *mixer, const keel_mixer_command_t *command
     float base;
 
     ends = fit_tilt(config, ends, tilt, &limited);
-    base = fit_thrust(config, wish.thrust, ends, &limited);
+    base = fit_thrust(config, wish.thrust, ends, kept_yaw(config, wish.yaw, ends), &limited);
     if (!put_out_all(mixer, tilt, base, wish.yaw)) {
         const float part = part_of_yaw(config, tilt, base, wish.yaw);
 

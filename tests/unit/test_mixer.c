@@ -16,7 +16,7 @@ static keel_mixer_t mixer;
 
 void setUp(void)
 {
-    config = (keel_mixer_config_t){keel_mixer_quad_x, IDLE, HIGHEST};
+    config = (keel_mixer_config_t){keel_mixer_quad_x, IDLE, HIGHEST, 0.0f};
     memset(&mixer, 0x55, sizeof mixer);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
 }
@@ -152,7 +152,7 @@ static void refuses(keel_status_t status)
     TEST_ASSERT_EQUAL(status, keel_mixer_check(&config));
     TEST_ASSERT_EQUAL(status, keel_mixer_init(&mixer, &config));
     TEST_ASSERT_EQUAL_MEMORY(&before, &mixer, sizeof mixer);
-    config = (keel_mixer_config_t){keel_mixer_quad_x, IDLE, HIGHEST};
+    config = (keel_mixer_config_t){keel_mixer_quad_x, IDLE, HIGHEST, 0.0f};
 }
 
 static void MIX_001_bad_numbers_of_motors_are_refused(void)
@@ -213,6 +213,7 @@ static void MIX_001_bad_ranges_are_refused(void)
 {
     const float idle[] = {0.0f, 0x1.fffffep-6f, 0x1.000002p-2f, NAN, -0.25f};
     const float highest[] = {0x1.fffffep-2f, 0x1.000002p+0f, NAN, INFINITY};
+    const float yaw_share[] = {-0x1p-149f, 0x1.000002p-2f, NAN, INFINITY};
 
     for (uint32_t i = 0u; i < (sizeof idle / sizeof idle[0]); i++) {
         config.idle = idle[i];
@@ -220,6 +221,10 @@ static void MIX_001_bad_ranges_are_refused(void)
     }
     for (uint32_t i = 0u; i < (sizeof highest / sizeof highest[0]); i++) {
         config.highest = highest[i];
+        refuses(KEEL_ERR_LIMITS);
+    }
+    for (uint32_t i = 0u; i < (sizeof yaw_share / sizeof yaw_share[0]); i++) {
+        config.yaw_share = yaw_share[i];
         refuses(KEEL_ERR_LIMITS);
     }
 }
@@ -245,6 +250,8 @@ static void MIX_001_the_ends_are_taken(void)
     config.highest = 0.5f;
     takes();
     config.highest = 1.0f;
+    takes();
+    config.yaw_share = 0.25f;
     takes();
 }
 
@@ -325,6 +332,39 @@ static void MIX_008_yaw_gives_way_first(void)
     expect(KEEL_MIXER_YAW, 0.25f, 0.5f, 0.5f, 0.75f);
 }
 
+/* Without a share neither idle nor full thrust leaves any yaw. */
+static void MIX_009_a_share_of_yaw_is_done_at_every_thrust(void)
+{
+    step(0.0f, 0.0f, 0.25f, 1.0f);
+    expect(KEEL_MIXER_YAW, HIGHEST, HIGHEST, HIGHEST, HIGHEST);
+    step(0.0f, 0.0f, 0.25f, 0.0f);
+    expect(KEEL_MIXER_YAW, IDLE, IDLE, IDLE, IDLE);
+
+    config.yaw_share = 0.125f;
+    takes();
+    step(0.0f, 0.0f, 0.25f, 1.0f);
+    expect(KEEL_MIXER_LOWERED | KEEL_MIXER_YAW, 0.75f, 0.5f, 0.75f, 0.5f);
+    step(0.0f, 0.0f, 0.25f, 0.0f);
+    expect(KEEL_MIXER_RAISED | KEEL_MIXER_YAW, 0.5f, 0.25f, 0.5f, 0.25f);
+    step(0.0f, 0.0f, -0.0625f, 0.0f);
+    expect(KEEL_MIXER_RAISED, 0.25f, 0.375f, 0.25f, 0.375f);
+    /* Thrust that leaves room stays as it is. */
+    step(0.0f, 0.0f, 0.125f, 0.5f);
+    expect(0u, 0.625f, 0.375f, 0.625f, 0.375f);
+}
+
+/* The roll needs 3/8 of the span of 1/2: of what is left, half is kept. One that needs all of it
+ * leaves none. */
+static void MIX_009_roll_and_pitch_come_before_it(void)
+{
+    config.yaw_share = 0.125f;
+    takes();
+    step(0.1875f, 0.0f, 0.25f, 1.0f);
+    expect(KEEL_MIXER_LOWERED | KEEL_MIXER_YAW, 0.375f, 0.25f, 0.75f, 0.625f);
+    step(0.75f, 0.25f, 0.5f, 1.0f);
+    expect(KEEL_MIXER_TILT | KEEL_MIXER_LOWERED | KEEL_MIXER_YAW, 0.375f, 0.25f, 0.625f, 0.75f);
+}
+
 static void MIX_007_thrust_gives_way_to_roll_and_pitch(void)
 {
     step(0.125f, 0.0f, 0.0f, 0.0f);
@@ -389,6 +429,8 @@ int main(void)
     RUN_TEST(MIX_005_what_is_not_finite_counts_as_0);
     RUN_TEST(MIX_005_what_is_out_of_range_counts_as_its_end);
     RUN_TEST(MIX_008_yaw_gives_way_first);
+    RUN_TEST(MIX_009_a_share_of_yaw_is_done_at_every_thrust);
+    RUN_TEST(MIX_009_roll_and_pitch_come_before_it);
     RUN_TEST(MIX_007_thrust_gives_way_to_roll_and_pitch);
     RUN_TEST(MIX_006_roll_and_pitch_keep_their_ratio);
     RUN_TEST(MIX_007_full_thrust_that_is_rounded_upwards_is_all_there_is);

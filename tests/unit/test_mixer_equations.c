@@ -16,7 +16,7 @@ static keel_mixer_t mixer;
 void setUp(void)
 {
     any_from(1u);
-    config = (keel_mixer_config_t){keel_mixer_quad_x, 0.25f, 0.75f};
+    config = (keel_mixer_config_t){keel_mixer_quad_x, 0.25f, 0.75f, 0.0f};
     memset(&mixer, 0x55, sizeof mixer);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
 }
@@ -87,6 +87,15 @@ static void MIX_006_the_ratio_holds_within_rounding(void)
     TEST_ASSERT_GREATER_THAN_UINT32(CASES / 2u, scaled);
 }
 
+/* What is kept for yaw of what roll and pitch, which take so much, leave of the span. */
+static double kept_of(double yaw, double taken)
+{
+    const double span = (double)mixer.config.highest - (double)mixer.config.idle;
+
+    return smaller(smaller(magnitude(yaw), (double)mixer.config.yaw_share),
+                   larger(0.0, (span - taken) / 2.0));
+}
+
 /* Without any last clamp. */
 static void expected_of(const keel_mixer_command_t *command, double output[])
 {
@@ -98,6 +107,7 @@ static void expected_of(const keel_mixer_command_t *command, double output[])
     double least = 9.0;
     double most = -9.0;
     double part = 1.0;
+    double kept;
     double base = idle + ((double)command->thrust * span);
 
     for (uint32_t i = 0u; i < geometry->motors; i++) {
@@ -107,7 +117,8 @@ static void expected_of(const keel_mixer_command_t *command, double output[])
         most = larger(most, tilt[i]);
     }
     part = smaller(1.0, span / larger(most - least, 1.0e-9));
-    base = smaller(larger(base, idle - (part * least)), highest - (part * most));
+    kept = kept_of((double)command->yaw, part * (most - least));
+    base = smaller(larger(base, idle - (part * least) + kept), highest - (part * most) - kept);
     for (uint32_t i = 0u; i < geometry->motors; i++) {
         output[i] = base + (part * tilt[i]);
     }
@@ -133,6 +144,7 @@ static void check_any_step(double margin)
 
     config.idle = between(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX);
     config.highest = between(KEEL_MIXER_HIGHEST_MIN, 1.0f);
+    config.yaw_share = one_in(4u) ? 0.0f : between(0.0f, KEEL_MIXER_YAW_SHARE_MAX);
     TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
     keel_mixer_step(&mixer, &command, true);
     expected_of(&command, expected);
@@ -154,6 +166,33 @@ static void MIX_004_outputs_are_those_of_the_equations(void)
         config.geometry = *tables[n % 7u];
         check_any_step(MARGIN);
     }
+}
+
+/* The yaw torque of a quadcopter's X, from what its outputs amount to: the share of it is done
+ * beside any thrust, roll and pitch, as far as these leave room. */
+static void MIX_009_the_share_is_done(void)
+{
+    uint32_t needed = 0u;
+
+    for (uint32_t n = 0u; n < CASES; n++) {
+        const float size = between(0.0f, 0.25f);
+        const keel_mixer_command_t command = {between(-size, size), between(-size, size),
+                                              between(-1.0f, 1.0f), one_in(2u) ? 0.0f : 1.0f};
+        const double taken = 2.0 *
+                             (magnitude((double)command.roll) + magnitude((double)command.pitch));
+        double turned = 0.0;
+
+        config.yaw_share = between(0.0f, KEEL_MIXER_YAW_SHARE_MAX);
+        TEST_ASSERT_EQUAL(KEEL_OK, keel_mixer_init(&mixer, &config));
+        keel_mixer_step(&mixer, &command, true);
+        for (uint32_t i = 0u; i < 4u; i++) {
+            turned += (double)mixer.output[i] * (double)config.geometry.motor[i].yaw / 4.0;
+        }
+        turned = (command.yaw < 0.0f) ? -turned : turned;
+        TEST_ASSERT_TRUE(turned > (kept_of((double)command.yaw, taken) - MARGIN));
+        needed += ((mixer.limited & KEEL_MIXER_YAW) != 0u) ? 1u : 0u;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(CASES / 2u, needed);
 }
 
 /* Three to eight motors, wherever they are, that can be flown. How much the rounding of one moves
@@ -181,5 +220,6 @@ int main(void)
     RUN_TEST(MIX_006_the_ratio_holds_within_rounding);
     RUN_TEST(MIX_004_outputs_are_those_of_the_equations);
     RUN_TEST(MIX_004_so_are_those_of_any_airframe);
+    RUN_TEST(MIX_009_the_share_is_done);
     return UNITY_END();
 }

@@ -62,6 +62,7 @@ static bool set_up(void)
     }
     config.idle = usually(between(KEEL_MIXER_IDLE_MIN, KEEL_MIXER_IDLE_MAX), 64u);
     config.highest = usually(between(KEEL_MIXER_HIGHEST_MIN, 1.0f), 64u);
+    config.yaw_share = usually(between(0.0f, KEEL_MIXER_YAW_SHARE_MAX), 64u);
     expected = model_mixer_init(&model, &config);
     TEST_ASSERT_EQUAL(model_mixer_check(&config), keel_mixer_check(&config));
     TEST_ASSERT_EQUAL(expected, keel_mixer_init(&mixer, &config));

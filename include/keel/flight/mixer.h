@@ -4,15 +4,20 @@
  * @brief From torques and thrust to motors: the mixer of fig. 8.
  *
  * A command asks for a torque about each axis and for thrust; a geometry says what a motor adds to
- * each torque. Beyond their range, parts give way in a fixed order: yaw first, then thrust
- * moves as far as roll and pitch need, and only what is beyond all motors' span scales roll and
- * pitch, both by one factor, so that the craft tilts about the axis that was asked for. With range
- * idle to highest, span = highest - idle, and sums over motors i:
+ * each torque. Beyond their range, parts give way in a fixed order: yaw beyond its share first,
+ * then thrust moves as far as roll, pitch and the share of yaw need, then the share of yaw gives
+ * way, and only what is beyond all motors' span scales roll and pitch, both by one factor, so that
+ * the craft tilts about the axis that was asked for. With range idle to highest, span = highest -
+ * idle, and sums over motors i:
  *
  *     t_i = roll_i roll + pitch_i pitch, all scaled by span / (max t - min t) where that is below 1
- *     base = idle + thrust span, moved into [idle - min t, highest - max t]
+ *     kept = the least of |yaw|, yaw_share and (span - (max t - min t)) / 2
+ *     base = idle + thrust span, moved into [idle - min t + kept, highest - max t - kept]
  *     output_i = base + t_i + k yaw_i yaw, with the largest k from 0 to 1 for which all outputs are
  *                in [idle, highest]
+ *
+ * So a craft turns its nose at idle and at full thrust, too: of a yaw torque, the share is done
+ * whatever thrust is asked for, as far as roll and pitch leave room.
  *
  * Flags tell what gave way, so that the integrators above stop for just these axes. Whatever the
  * command's bits are, an armed motor's output stays in [idle, highest], so that no motor of an
@@ -40,6 +45,9 @@ KEEL_C_BEGIN
 #define KEEL_MIXER_IDLE_MIN    0.03125f
 #define KEEL_MIXER_IDLE_MAX    0.25f
 #define KEEL_MIXER_HIGHEST_MIN 0.5f
+
+/** The greatest share of yaw; the least is 0. */
+#define KEEL_MIXER_YAW_SHARE_MAX 0.25f
 
 /** About each axis some motor must turn the craft one way by this part of the strongest possible,
  * and some motor the other way. */
@@ -81,6 +89,7 @@ typedef struct keel_mixer_config {
     keel_mixer_geometry_t geometry; /**< One of the above, or your own. */
     float idle;                     /**< The least output of an armed motor. */
     float highest;                  /**< The greatest. */
+    float yaw_share; /**< Thrust gives way to yaw torque up to this; 0: not at all. */
 } keel_mixer_config_t;
 
 /** The command. */
@@ -108,7 +117,8 @@ typedef struct keel_mixer {
   @
   @ predicate mixer_range(keel_mixer_config_t config) =
   @     \is_finite(config.idle) && KEEL_MIXER_IDLE_MIN <= config.idle <= KEEL_MIXER_IDLE_MAX &&
-  @     \is_finite(config.highest) && KEEL_MIXER_HIGHEST_MIN <= config.highest <= 1;
+  @     \is_finite(config.highest) && KEEL_MIXER_HIGHEST_MIN <= config.highest <= 1 &&
+  @     \is_finite(config.yaw_share) && 0 <= config.yaw_share <= KEEL_MIXER_YAW_SHARE_MAX;
   @
   @ // What init establishes and every step keeps.
   @ predicate mixer_valid(keel_mixer_t *mixer) =
@@ -138,7 +148,8 @@ typedef struct keel_mixer {
  * @param config the configuration, any bit pattern
  * @return KEEL_OK; KEEL_ERR_MOTORS for a number of motors out of its range; KEEL_ERR_GEOMETRY when
  *         a factor is not from -1 to 1, or no motor turns the craft about some axis one way by
- *         KEEL_MIXER_AUTHORITY; KEEL_ERR_LIMITS when idle or highest is out of its range
+ *         KEEL_MIXER_AUTHORITY; KEEL_ERR_LIMITS when idle, highest or the share of yaw is out of
+ *         its range
  */
 /*@ requires \valid_read(config);
   @ assigns \nothing;
@@ -163,7 +174,7 @@ keel_status_t keel_mixer_check(const keel_mixer_config_t *config);
 keel_status_t keel_mixer_init(keel_mixer_t *mixer, const keel_mixer_config_t *config);
 
 /**
- * Puts out one command (requirements MIX-003 to MIX-008). The last operation on each output brings
+ * Puts out one command (requirements MIX-003 to MIX-009). The last operation on each output brings
  * it into its range, as sums may be rounded beyond it.
  *
  * @param mixer   the mixer

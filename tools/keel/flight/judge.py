@@ -102,6 +102,13 @@ class Judge:
         """Truth less what was asked."""
         return max(map(rms, self._errors(1)))
 
+    def turning_rms_dps(self) -> float:
+        """Of the nose, in degrees a second: truth less what was asked."""
+        time = self._trace.column("time")
+        turned = np.gradient(np.unwrap(self._trace.column("yaw")), time)
+        wanted = self._trace.view["asked_rate"][:, 2].astype(float)
+        return rms(np.degrees(turned - wanted)[self._in])
+
     def tilt_max_deg(self) -> float:
         """From level."""
         roll, pitch = self._trace.column("roll"), self._trace.column("pitch")
@@ -180,6 +187,7 @@ METRICS = (
     "attitude_max_deg",
     "heading_max_deg",
     "tracking_rms_deg",
+    "turning_rms_dps",
     "tilt_max_deg",
     "hold_rms_m",
     "hold_max_m",

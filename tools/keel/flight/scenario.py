@@ -247,6 +247,7 @@ class Limits(Table):
     attitude_max_deg: Positive | None = None
     heading_max_deg: Positive | None = None
     tracking_rms_deg: Positive | None = None  # Of roll and of pitch: truth less what was asked.
+    turning_rms_dps: Positive | None = None  # Of the nose: truth less what was asked.
     tilt_max_deg: Positive | None = None
     hold_rms_m: Positive | None = None  # From where it was at from_s, horizontally.
     hold_max_m: Positive | None = None
