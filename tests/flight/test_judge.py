@@ -18,6 +18,7 @@ from keel.flight.scenario import Limits, Scenario
 VIEW = [
     ("quaternion", "<f4", (4,)),
     ("asked_tilt", "<f4", (2,)),
+    ("asked_rate", "<f4", (3,)),
     ("position", "<f4", (3,)),
     ("state", "<u4"),
     ("mode", "<u4"),
@@ -83,6 +84,14 @@ def test_tracking_takes_sines() -> None:
     trace = flight(pitch=math.radians(30.0))
     trace.view["asked_tilt"] = (0.0, 0.5)
     assert value("tracking_rms_deg", trace) == pytest.approx(0.0, abs=1e-4)
+
+
+def test_turning_is_beside_what_was_asked() -> None:
+    """The nose turns by 50 degrees a second, through north; 40 are asked, of the yaw alone."""
+    turned = np.radians(330.0 + 50.0 * np.arange(ROWS) / 10.0) % (2.0 * np.pi)
+    trace = flight(yaw=turned)
+    trace.view["asked_rate"] = np.radians((7.0, 8.0, 40.0))
+    assert value("turning_rms_dps", trace) == pytest.approx(10.0, abs=1e-4)
 
 
 def test_holding_is_from_where_the_limits_begin() -> None:
