@@ -29,6 +29,8 @@ static const keel_level_t levels[] = {
     KEEL_LEVEL(H, 4u, false),
 };
 
+static const keel_pin_t armed = KEEL_ARMED(I, 0u);
+
 /* The power modules' connectors, whose modules divide the battery's voltage by 18.1 and give a volt
  * for 36.4 A (PX4's board configuration of px4/fmu-v5); and the board's own supplies. */
 static const keel_analogue_t analogue[KEEL_ANALOGUES] = {
@@ -74,6 +76,7 @@ const keel_board_pins_t keel_board_pins = {
     .output_count = 8u,
     .levels = levels,
     .level_count = 8u,
+    .armed = &armed,
     .sck = KEEL_ALTERNATE(G, 11u, 5u, SPI1, SCK),
     .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO),
     .mosi = KEEL_ALTERNATE(D, 7u, 5u, SPI1, MOSI),

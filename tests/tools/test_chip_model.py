@@ -395,11 +395,12 @@ class PulsesTest(SmallApplication):
         each output did."""
         board = builder.board
         image = builder.link("keel", builder.objects(["examples/pulser"]))
-        sockets = read_sockets(ROOT)[board.name].outputs
-        self.assertEqual(len(sockets), {"fmuv5": 8, "nucleo_f767zi": 4}[board.name])
-        model = Chip(*chip_model.CONSOLES[board.name], "", sockets)
+        sockets = read_sockets(ROOT)[board.name]
+        count = len(sockets.outputs)
+        self.assertEqual(count, {"fmuv5": 8, "nucleo_f767zi": 4}[board.name])
+        model = Chip(*chip_model.CONSOLES[board.name], "", sockets.watched)
         Processor(self.tools, image.binary.read_bytes(), board.load_address, model).run(65_000)
-        for number, log in enumerate(model.outputs.log):
+        for number, log in enumerate(model.outputs.log[:count]):
             expected = [
                 "floats",
                 "low",
@@ -413,6 +414,12 @@ class PulsesTest(SmallApplication):
             self.assertEqual([state for _, state in log][: len(expected)], expected, number)
             self.assertEqual(log[1][0], 0, "low from the reset on")
             self.assertGreaterEqual(log[6][0] - log[5][0], 6000, "the hold before a reset")
+        for log in model.outputs.log[count:]:  # Low from arming until the outputs are off.
+            states = [state for _, state in log]
+            self.assertEqual(states[:5], ["floats", "low", "floats", "low", "floats"])
+            first = model.outputs.log[0]
+            self.assertLessEqual(log[1][0], first[2][0])
+            self.assertEqual([log[2][0], log[4][0]], [first[3][0], first[5][0]])
 
     def test_pulses_come_out_of_their_sockets(self) -> None:
         for name in chip_model.CONSOLES:
@@ -431,6 +438,13 @@ class PulsesTest(SmallApplication):
             "KEEL_OUTPUT(H, 6u, 2u, TIM12, CH1)",
         ),
         ("bsp/fmuv5/pins.c", ".output_count = 8u", ".output_count = 7u"),
+        ("bsp/fmuv5/pins.c", "KEEL_ARMED(I, 0u)", "KEEL_ARMED(I, 1u)"),
+        ("bsp/stm32f767/target/chip.c", "tell_armed(true);", ""),
+        (
+            "bsp/stm32f767/target/chip.c",
+            "keel_pwm_off(PINS->outputs, PINS->output_count);\n tell_armed(false);",
+            "keel_pwm_off(PINS->outputs, PINS->output_count);",
+        ),
         ("bsp/stm32f767/target/chip.c", "keel_bits_enable(clocks[i].enable, clocks[i].bit);", ""),
         (
             "bsp/stm32f767/target/chip.c",

@@ -91,9 +91,23 @@ static keel_spi_device_t sensor_device;
 /* Before memory is filled, but for ITCM: nothing static but constants may be used. */
 
 /* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
+/* Whatever else is on the board sees by this pin whether motors may turn. */
+static void tell_armed(bool armed)
+{
+    if (PINS->armed == NULL) {
+        return;
+    }
+    if (armed) {
+        keel_pin_output(*PINS->armed, KEEL_DRIVE_OPEN_DRAIN, false);
+    } else {
+        keel_pin_input(*PINS->armed, KEEL_PULL_UP);
+    }
+}
+
 void keel_board_early(void)
 {
     keel_bits_enable(&RCC->AHB1ENR, GPIO_CLOCKS);
+    tell_armed(false);
     for (uint32_t i = 0u; i < PINS->output_count; i++) {
         keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);
     }
@@ -266,6 +280,7 @@ void keel_board_put(char c)
 void keel_board_outputs_off(void)
 {
     keel_pwm_off(PINS->outputs, PINS->output_count);
+    tell_armed(false);
 }
 
 /* By counting, for any clock may be broken. A turn takes a cycle at least, and the core runs at 216
@@ -538,6 +553,7 @@ keel_bsp_status_t keel_chip_pulse(uint32_t output, uint32_t pulse_us)
 
 void keel_chip_arm(void)
 {
+    tell_armed(true);
     require(keel_pwm_arm(PINS->outputs, PINS->output_count));
 }
 

@@ -75,6 +75,9 @@ extern const keel_pwm_timer_t keel_chip_timers[KEEL_CHIP_TIMERS];
 /** A pin that has one level for good; `make registers` holds both against specs/outputs.toml. */
 #define KEEL_LEVEL(letter, number, high) {KEEL_PIN(letter, number), (high)}
 
+/** A pin that tells others on the board that motors may turn; held against specs/outputs.toml. */
+#define KEEL_ARMED(letter, number) KEEL_PIN(letter, number)
+
 /** A pin that switches a supply, say, and its level while the board runs. */
 typedef struct keel_level {
     keel_pin_t pin;
@@ -168,7 +171,8 @@ typedef struct keel_board_pins {
     uint32_t output_count;            /**< 1 to KEEL_PWM_OUTPUTS_MAX. */
     const keel_level_t *levels;       /**< Supplies and what else has one level; null: none. */
     uint32_t level_count;
-    keel_alternate_t sck; /**< SPI 1, with the sensor. */
+    const keel_pin_t *armed; /**< Low while outputs are armed, else held high; null: none. */
+    keel_alternate_t sck;    /**< SPI 1, with the sensor. */
     keel_alternate_t miso;
     keel_alternate_t mosi;
     keel_pin_t sensor_select;

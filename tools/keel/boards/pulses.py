@@ -123,11 +123,12 @@ FUNCTIONS = {"TIM1": 1, "TIM4": 2, "TIM12": 9}  # That give a pin to each (data 
 
 
 class Outputs:
-    """A board's outputs: what each does, and since when."""
+    """A board's outputs, each a pin and its timer's channel, or a pin alone: what each does, and
+    since when."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self.pins = [pin_of(name.split()[0]) for name in names]
-        self.owners = [name.split()[1].split("_CH") for name in names]
+        self.owners = [name.partition(" ")[2].split("_CH") for name in names]
         self.timers = timers()
         self.by_base = {timer.base: timer for timer in self.timers.values()}
         self.log: list[list[tuple[float, State]]] = [[] for _ in names]
@@ -136,13 +137,13 @@ class Outputs:
     def state(self, words: Mapping[int, int], high: set[tuple[int, int]], number: int) -> State:
         """What an output does now."""
         port, pin = self.pins[number]
-        name, channel = self.owners[number]
         base = GPIOA + 0x400 * port
         mode = words.get(base, 0) >> 2 * pin & 3
         if mode == 1:
             return HIGH if (port, pin) in high else LOW
         if mode != 2:
             return FLOATS
+        name, channel = self.owners[number]
         if words.get(base + 0x20 + 4 * (pin // 8), 0) >> 4 * (pin % 8) & 0xF != FUNCTIONS[name]:
             return OTHER
         return self.timers[name].state(words, int(channel) - 1)

@@ -14,6 +14,7 @@ SOCKETS = "specs/outputs.toml"
 PINS = "bsp/*/pins.c"
 OUTPUT_LINE = re.compile(r"KEEL_OUTPUT\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
 MOUNTING_LINE = re.compile(r"KEEL_MOUNTING\((-?\d), (-?\d), (-?\d)\)")
+ARMED_LINE = re.compile(r"KEEL_ARMED\((\w), (\d+)u\)")
 LEVEL_LINE = re.compile(r"KEEL_LEVEL\((\w), (\d+)u, (true|false)\)")
 
 
@@ -25,6 +26,12 @@ class Sockets(Table):
     mounting: list[int]
     outputs: list[Text]
     levels: list[Text]
+    armed: Text | None = None
+
+    @property
+    def watched(self) -> list[str]:
+        """The pins whose states mean something: the outputs, and the one that tells of them."""
+        return [*self.outputs, *([self.armed] if self.armed else [])]
 
 
 class SocketsFile(Table):
@@ -81,6 +88,9 @@ def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
                 f"{where}: levels {', '.join(sorted(levels))}; {SOCKETS} has "
                 f"{', '.join(sorted(board.levels))}"
             )
-        yield where, len(outputs) + len(levels) + len(mounted), wrong
+        armed = [f"P{port}{number}" for port, number in ARMED_LINE.findall(text)]
+        if armed != ([board.armed] if board.armed else []):
+            wrong.append(f"{where}: armed {', '.join(armed)}; {SOCKETS} has {board.armed}")
+        yield where, len(outputs) + len(levels) + len(mounted) + len(armed), wrong
     for name in known:
         yield SOCKETS, 0, [f"{SOCKETS}: {name}: there is no bsp/{name}/pins.c"]
