@@ -9,7 +9,7 @@
  *     keel_trace_log_start(&log, &scheduler, &ring);
  *     while (keel_trace_log_next(&log)) { send(log.message.bytes, log.message.size); }
  *
- * `make schedule` shows either.
+ * `make generate NAME=schedule` shows either.
  */
 #ifndef KEEL_BSP_COMMON_TRACE_LOG_H
 #define KEEL_BSP_COMMON_TRACE_LOG_H

@@ -15,10 +15,9 @@
  * its releases. A refusal of the kernel ends as a fault does.
  *
  * Keys: p lets pulses of 1000 us out, o switches the outputs off, t prints a table of the tasks (a
- * line at a time, so that no release is late for it), r
- * records each run of them until a ring is full and then sends it, for `make schedule`; and, to see
- * what follows: u an undefined instruction, n a null pointer, s a stack that overflows, h a task
- * that hangs.
+ * line at a time, so that no release is late for it), r records each run of them until a ring is
+ * full and then sends it, for `make generate NAME=schedule`; and, to see what follows: u an
+ * undefined instruction, n a null pointer, s a stack that overflows, h a task that hangs.
  */
 #include "board.h"
 #include "common/task_table.h"

@@ -39,7 +39,7 @@ typedef struct copter_file {
     uint32_t crc; /**< CRC-32 as MAVLink has it: from 0 on, and not inverted. */
 } copter_file_t;
 
-/** Made by `make tables`. */
+/** Made by `make generate NAME=tables`. */
 extern const copter_file_t copter_file[COPTER_FILES];
 
 /** An answer that is to be sent. */

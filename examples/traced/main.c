@@ -5,9 +5,10 @@
  *
  *     traced FILE [SECONDS]
  *
- * `make schedule` builds it for this machine, runs it, and draws the log. It shows what a firmware
- * does to be traced: the body that all tasks share makes a record of each run in a ring, and what
- * the ring holds goes out while nothing can be due. Without keel_trace_start it is as any other.
+ * `make generate NAME=schedule` builds it for this machine, runs it, and draws the log. It shows
+ * what a firmware does to be traced: the body that all tasks share makes a record of each run in a
+ * ring, and what the ring holds goes out while nothing can be due. Without keel_trace_start it is
+ * as any other.
  *
  * A task's body takes the task's worst-case time. Standard output gets a line for each task, with
  * what the scheduler itself counted, to hold the log against.

@@ -5,7 +5,8 @@
  *
  *     demo [POLL_US]
  *
- * What Keel does, seen without any hardware: `make demo` builds it for this machine and runs it.
+ * What Keel does, seen without any hardware: `make check NAME=demo` builds it for this machine and
+ * runs it.
  *
  * Time is a number that the demo owns. A task's body moves it on by the task's worst-case
  * execution time, and each turn of the main loop by POLL_US (5 us unless given): that is what the

@@ -168,7 +168,7 @@ def test_a_report_of_seeds_does_not_depend_on_their_order() -> None:
 
 @pytest.mark.parametrize("group", ["fly", "flights", "sim"])
 def test_a_flight_alone_has_its_packages(group: str) -> None:
-    """`make flights SEED=7` flies as `make fly` does."""
+    """`make check NAME=flights SEED=7` flies as `make fly` does."""
     words = [sys.executable, "tools/keel", "with", group, "-c", "import keel.flight.command"]
     subprocess.run(words, cwd=ROOT, check=True)
 

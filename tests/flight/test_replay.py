@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""make replay: recordings are made here by a motion of its own, in double precision and in other
-frames than Keel's; what is planted in them has to come out, and what is broken is told by place."""
+"""make check NAME=replay: recordings are made here by a motion of its own, in double precision and
+in other frames than Keel's; what is planted in them has to come out, and what is broken is told by
+place."""
 
 from __future__ import annotations
 
@@ -144,7 +145,7 @@ Tool = Callable[..., tuple[int, dict[str, Any]]]
 
 @pytest.fixture
 def tool(built: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Tool:
-    """Runs make replay's program; tells its exit status and its report."""
+    """Runs make check NAME=replay's program; tells its exit status and its report."""
     monkeypatch.setattr(library, "build", lambda *_: built)
 
     def called(*arguments: object) -> tuple[int, dict[str, Any]]:

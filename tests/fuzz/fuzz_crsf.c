@@ -4,7 +4,7 @@
  * @brief libFuzzer target: any string of bytes goes to the decoder of CRSF and to its model; they
  *        never differ, and of a frame behind a gap another decoder, crsf, thinks the same.
  *
- *     make fuzz ARGS="--filter crsf"
+ *     make check NAME=fuzz ARGS="--filter crsf"
  *
  * 0xA5 0x5A is a gap. CRCs are made right for every other frame, as few would be by chance.
  */

@@ -5,7 +5,7 @@
  *        never differ, and of 32 bytes behind a gap another decoder, parse_rc_ibus, thinks the
  *        same.
  *
- *     make fuzz ARGS="--filter ibus"
+ *     make check NAME=fuzz ARGS="--filter ibus"
  *
  * The first byte is the configuration. 0xA5 is a gap before the next byte. Sums are made right,
  * unless the configuration says otherwise, as few would be by chance.

@@ -5,7 +5,7 @@
  *        model; they never differ, and what was taken, written again, is what came; and of a frame
  *        behind a gap MAVLink's own parser thinks the same.
  *
- *     make fuzz ARGS="--filter mavlink"
+ *     make check NAME=fuzz ARGS="--filter mavlink"
  *
  * The first byte chooses how many messages are known; 0xA5 0x5A is a gap. Checksums of messages
  * that are known are made right for every other frame, as few would be by chance.

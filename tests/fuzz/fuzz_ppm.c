@@ -4,7 +4,7 @@
  * @brief libFuzzer target: any times between edges go to the PPM decoder and to its model; they
  *        never differ, and of up to 20 edges another decoder, ppm_decode, thinks the same.
  *
- *     make fuzz ARGS="--filter ppm"
+ *     make check NAME=fuzz ARGS="--filter ppm"
  *
  * The first byte is the configuration. Each byte behind it is an edge: most of them behind a
  * channel, some behind a sync gap, and some behind a time that the next two bytes say.

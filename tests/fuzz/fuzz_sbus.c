@@ -4,7 +4,7 @@
  * @brief libFuzzer target: any string of bytes goes to the decoder of SBUS and to its model; they
  *        never differ, and of 25 bytes behind a gap another decoder, uf-sbus, thinks the same.
  *
- *     make fuzz ARGS="--filter sbus"
+ *     make check NAME=fuzz ARGS="--filter sbus"
  *
  * The first byte is the configuration. 0xA5 is a gap before the next byte. Flags and footers are
  * made right for most frames, as few would be by chance.

@@ -3,7 +3,7 @@
  * @file fuzz_scheduler.c
  * @brief libFuzzer target: any string of bytes drives the kernel and its model; they never differ.
  *
- *     make fuzz ARGS="--filter scheduler"
+ *     make check NAME=fuzz ARGS="--filter scheduler"
  */
 #include "../property/drive.h"
 

@@ -4,7 +4,7 @@
  * @brief libFuzzer target: any string of bytes goes to the decoder of UBX and to its model; they
  *        never differ, and of a message behind a gap another decoder, ublox, thinks the same.
  *
- *     make fuzz ARGS="--filter ubx"
+ *     make check NAME=fuzz ARGS="--filter ubx"
  *
  * The first byte is the configuration. 0xA5 0x5A is a gap before the next byte. Checksums are made
  * right for most messages, as few would be by chance.

@@ -232,7 +232,7 @@ def test_lines_are_found_through_strings_and_brackets() -> None:
 
 
 def test_fuzzed_files_never_end_in_a_traceback() -> None:
-    """KEEL_FUZZ_FILES sets how many; `make fuzztasks` tries 100 000."""
+    """KEEL_FUZZ_FILES sets how many; `make check NAME=fuzztasks` tries 100 000."""
     files = int(os.environ.get("KEEL_FUZZ_FILES", "2000"))
     tally = fuzz(files, lambda tasks: None)
     assert tally.accepted > files / 10 and tally.refused > files / 10

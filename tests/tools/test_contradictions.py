@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of which smoke tests tools/keel/engines/find_contradictions.ml asks: no fewer than say all.
 
-They run Frama-C, and are skipped without it. What the tests find is seeded by `make qualify`.
+They run Frama-C, and are skipped without it. `make check NAME=qualify` seeds what the tests find.
 """
 
 from __future__ import annotations

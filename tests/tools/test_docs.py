@@ -13,6 +13,8 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from makefile import rule_of, rules
+
 ROOT = Path(__file__).resolve().parents[2]
 README_LINES = 150
 INDEX = "docs/README.md"
@@ -30,7 +32,11 @@ FENCE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 SPAN = re.compile(r"`([^`\n]+)`")
 LINK = re.compile(r"\]\(([^()\s]+)\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
-TARGET = re.compile(r"^(?:\S+=\S* )*make ([a-z][a-z-]*)")
+TARGET = re.compile(r"^(?:\S+=\S* )*(make [a-z].*)")
+# In comments and messages: with its NAME, if it has one.
+CALLED = re.compile(r"`(make [a-z-]+(?: NAME=[a-z-]+)?)")
+WRONG = ("tests/tools/test_docs_soundness.py",)  # Has commands that are none.
+SOURCES = (".py", ".c", ".h", ".toml", ".sdoc", ".ld", ".xml", ".mk", ".yml", ".sh")
 IDENTIFIER = re.compile(r"\bkeel_[a-z0-9_]+\b")
 TABLE = re.compile(r"(?:^\|.*\n)+", re.MULTILINE)
 
@@ -143,6 +149,12 @@ def is_missing(path: str) -> bool:
 
 
 @cache
+def targets() -> frozenset[str]:
+    """The rules of Keel's Makefile, and of what a user's project includes."""
+    return rules("Makefile") | rules("keel.mk")
+
+
+@cache
 def identifiers() -> frozenset[str]:
     """What the headers and the harnesses call by Keel's name."""
     names = {Path(name).stem for name in files()}
@@ -177,11 +189,21 @@ class DocumentsTest(unittest.TestCase):
     def test_tables_have_a_heading_and_even_rows(self) -> None:
         self.none(everywhere(TABLE), is_uneven)
 
-    def test_targets_exist(self) -> None:
-        names = ("Makefile", "keel.mk")  # Keel's own, and what a user's project includes.
-        makefile = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in names)
-        targets = set(re.findall(r"^([a-z][a-z-]*):", makefile, re.MULTILINE))
-        self.none(commands(), lambda text: bool(set(TARGET.findall(text)) - targets))
+    def test_commands_of_make_exist(self) -> None:
+        def none_such(text: str) -> bool:
+            return not {rule_of(command) for command in TARGET.findall(text)} <= targets()
+
+        self.none(commands(), none_such)
+
+    def test_commands_of_make_exist_that_sources_name(self) -> None:
+        names = [name for name in files() if name.endswith(SOURCES) and name not in WRONG]
+        places = [
+            place
+            for name in names
+            for place in found(CALLED, name, (ROOT / name).read_text(encoding="utf-8"))
+        ]
+        self.assertGreater(len(places), 50)
+        self.none(places, lambda text: rule_of(text) not in targets())
 
     def test_files_exist(self) -> None:
         self.none(everywhere(SPAN), lambda text: is_path(text) and is_missing(text))

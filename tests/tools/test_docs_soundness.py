@@ -14,6 +14,8 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from makefile import rule_of
+
 from keel.cli.commands import COMMANDS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -22,7 +24,7 @@ HEAD = ["no.", "risk", "what closes it", "which check runs", "what is left"]
 NOTHING = "none"
 
 SPAN = re.compile(r"`([^`]+)`")
-COMMAND = re.compile(r"make ([a-z-]+)(?: [A-Z]+=\S+)*")
+COMMAND = re.compile(r"make [a-z-]+(?: [A-Z]+=\S+)*")
 # What a cell has in a row: a command with its files, or a file alone.
 CHECK = re.compile(r"`(make [^`]+)`(?: \(((?:`[^`]+`(?:, )?)+)\))?|`([^`]+)`")
 PROGRAM = re.compile(r"\btools/keel ([a-z-]+)")
@@ -47,10 +49,11 @@ def rows_of(text: str) -> list[Row]:
     return [Row(*line) for line in cells[2:]]
 
 
-def recipe(target: str) -> str:
-    """What the Makefile runs for a target; empty where there is none."""
+def recipe(command: str) -> str:
+    """What the Makefile runs for a command; empty where there is none."""
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
-    found = re.search(rf"^{re.escape(target)}:(?!=).*\n((?:\t.*\n)+)", makefile, re.MULTILINE)
+    rule = re.escape(rule_of(command))
+    found = re.search(rf"^{rule}:(?!=).*\n((?:\t.*\n)+)", makefile, re.MULTILINE)
     return found[1] if found else ""
 
 
@@ -93,9 +96,9 @@ def sources(module: str) -> frozenset[Path]:
     return frozenset(reached)
 
 
-def runs(target: str, name: str) -> bool:
-    """Whether a target's program has a file among its sources, or names it."""
-    modules = [COMMANDS[name].module for name in PROGRAM.findall(recipe(target))]
+def runs(command: str, name: str) -> bool:
+    """Whether a command's program has a file among its sources, or names it."""
+    modules = [COMMANDS[name].module for name in PROGRAM.findall(recipe(command))]
     reached = {path for module in modules for path in sources(module)}
     last = [part for part in Path(name).parts if "*" not in part][-1]
     words = (last, f'"{Path(last).stem}"')  # Modules that are chosen by name have no suffix.
@@ -121,14 +124,13 @@ def problems(row: Row) -> Iterator[str]:
 
 def of_command(number: str, command: str, files: list[str]) -> Iterator[str]:
     """What is wrong with a command and its files."""
-    target = COMMAND.fullmatch(command)
-    if target is None or not recipe(target[1]):
+    if not COMMAND.fullmatch(command) or not recipe(command):
         yield f"{number}: there is no {command}"
         return
     yield from (
         f"{number}: {command} does not run {name}"
         for name in files
-        if there(name) and not runs(target[1], name)
+        if there(name) and not runs(command, name)
     )
 
 
@@ -168,6 +170,9 @@ class FalseRows(unittest.TestCase):
     def test_what_is_not_there(self) -> None:
         self.assertEqual(["7: there is no make prov"], self.told("`make prov`"))
         self.assertEqual(
+            ["7: there is no make check NAME=prove"], self.told("`make check NAME=prove`")
+        )
+        self.assertEqual(
             ["7: there is no tests/tools/test_nothing.py"],
             self.told("`tests/tools/test_nothing.py`"),
         )
@@ -178,12 +183,12 @@ class FalseRows(unittest.TestCase):
 
     def test_what_does_not_run(self) -> None:
         self.assertEqual(
-            ["7: make trace does not run tools/keel/test/fuzz.py"],
-            self.told("`make trace` (`tools/keel/test/fuzz.py`)"),
+            ["7: make check NAME=trace does not run tools/keel/test/fuzz.py"],
+            self.told("`make check NAME=trace` (`tools/keel/test/fuzz.py`)"),
         )
         self.assertEqual(
             ["7: tools/keel/test/fuzz.py is neither a command's nor a suite of make test"],
-            self.told("`make trace`, `tools/keel/test/fuzz.py`"),
+            self.told("`make check NAME=trace`, `tools/keel/test/fuzz.py`"),
         )
         self.assertEqual(["7: names no check"], self.told("somebody looks"))
 

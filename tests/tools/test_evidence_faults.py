@@ -239,5 +239,5 @@ class Faults(WholeProject):
         self.write_report("opinion/report.json", read)
         self.refused(
             "tests: build/coverage/report.json: is missing",
-            "build/opinion/report.json: has no verdict: make opinion",
+            "build/opinion/report.json: has no verdict: make check NAME=opinion",
         )

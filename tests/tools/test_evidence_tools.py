@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of the part `tools` of the evidence package, and of `make qualify`: wrong versions, other
-files, entries that are missing, and tools that no longer detect a fault.
+"""Tests of the part `tools` of the evidence package, and of `make check NAME=qualify`: wrong
+versions, other files, entries that are missing, and tools that no longer detect a fault.
 """
 
 from __future__ import annotations

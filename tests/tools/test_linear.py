@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the filter before Alt-Ergo: what it shows of a goal, and what it does not ask.
 
-`make qualify` asks Alt-Ergo itself, behind the filter, about what it proved though it is false.
+`make check NAME=qualify` asks Alt-Ergo itself, behind the filter, about what it proved though
+it is false.
 """
 
 from __future__ import annotations

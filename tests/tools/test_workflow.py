@@ -19,6 +19,8 @@ from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from makefile import rule_of, rules
+
 from keel.install.packages import provide
 
 provide("common")
@@ -35,6 +37,7 @@ ROOT = Path(__file__).resolve().parents[2]
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
 SETTING = r"-f +\S+|[A-Z_]+=(?:\"[^\"]*\"|'[^']*'|[^\s`]+)"
 MAKE = re.compile(rf"(?:^|`|&& |run: )[ ]*make((?: +(?:{SETTING}|[a-z][\w-]*))+)", re.M)
+NAMED = re.compile(r"\bNAME=")
 PROVE = re.compile(r"tools/keel prove([^`\n]*)")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 
@@ -83,12 +86,6 @@ def proofs() -> list[str]:
     return called + [command for command in commands() if re.search(r"\bprove\b", command)]
 
 
-def targets(file: Path) -> set[str]:
-    """The targets of a makefile."""
-    text = file.read_text(encoding="utf-8")
-    return set(re.findall(r"^([a-z][\w-]*)(?: [a-z][\w-]*)*:(?!=)", text, re.M))
-
-
 class Workflows(unittest.TestCase):
     def test_the_workflow_proves_joins_and_tests(self) -> None:
         self.assertLessEqual({"prove", "verdict", "check"}, set(jobs()))
@@ -99,8 +96,10 @@ class Workflows(unittest.TestCase):
     def test_every_target_of_make_exists(self) -> None:
         for command in commands():
             file = "keel.mk" if "keel" in command else "Makefile"
+            if NAMED.search(command):
+                self.assertIn(rule_of(f"make {command}"), rules(file))
             for target in re.sub(SETTING, "", command).split():
-                self.assertIn(target, targets(ROOT / file), command)
+                self.assertIn(target, rules(file), command)
 
     def test_every_option_of_prove_exists(self) -> None:
         helped = subprocess.run(

@@ -72,7 +72,8 @@ extern const keel_pwm_timer_t keel_chip_timers[KEEL_CHIP_TIMERS];
     {KEEL_PIN(letter, number), (function), &keel_chip_timers[KEEL_TIMER_##timer],                  \
      KEEL_CHANNEL_##channel}
 
-/** A pin that has one level for good; `make registers` holds both against specs/outputs.toml. */
+/** A pin that has one level for good; `make check NAME=registers` holds it against
+ * specs/outputs.toml. */
 #define KEEL_LEVEL(letter, number, high) {KEEL_PIN(letter, number), (high)}
 
 /** A pin that tells others on the board that motors may turn; held against specs/outputs.toml. */

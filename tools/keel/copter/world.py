@@ -97,7 +97,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"world: {shown} is up to date")
         return 0
     if options.check:
-        print(f"world: {shown} is stale: run make tables", file=sys.stderr)
+        print(f"world: {shown} is stale: run make generate NAME=tables", file=sys.stderr)
         return 1
     write_text(TABLE, text)
     print(f"world: {shown} written")

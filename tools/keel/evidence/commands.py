@@ -53,16 +53,16 @@ def commands_of(root: Path) -> tuple[Command, ...]:
         ),
         Command("test-target/report.json", ("test-target",)),
         Command("test/report.json", ("test-all",)),
-        Command("coverage-target/report.json", ("coverage-target",)),
-        Command("contracts-run/report.json", ("contracts-run",)),
+        Command("coverage-target/report.json", ("check", "NAME=coverage-target")),
+        Command("contracts-run/report.json", ("check", "NAME=contracts-run")),
         Command("coverage/report.json", ("coverage",), narrow=True),
-        Command("qualify/report.json", ("qualify",), narrow=True),
-        Command("eva/report.json", ("eva",), narrow=True),
+        Command("qualify/report.json", ("check", "NAME=qualify"), narrow=True),
+        Command("eva/report.json", ("check", "NAME=eva"), narrow=True),
         Command("lint/report.json", ("lint",), narrow=True),
         Command("bench/report.json", ("bench",), narrow=True),
-        Command("opinion/report.json", ("opinion",), narrow=True),
+        Command("opinion/report.json", ("check", "NAME=opinion"), narrow=True),
         *(
-            Command(f"stack/{name}.json", ("stack", f"BOARD={name}"), narrow=True)
+            Command(f"stack/{name}.json", ("check", "NAME=stack", f"BOARD={name}"), narrow=True)
             for name in boards
         ),
     )

@@ -5,9 +5,9 @@
 
 build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a
 picture of each flight. With --scenario the report is named after it. --seed flies a flight of
-`make flights` again and draws it. With either, or with --logs, there is the flight's log, too, for
-`make log`; with --trace it has each run of each task, and stands beside its two files of
-`make schedule`.
+`make check NAME=flights` again and draws it. With either, or with --logs, there is the
+flight's log, too, for `make log`; with --trace it has each run of each task, and stands beside its
+two files of `make generate NAME=schedule`.
 
 Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
 not, 2 when it could not be flown.
@@ -45,7 +45,9 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
         metavar="FOLDER",
         help="where scenarios lie",
     )
-    parser.add_argument("--seed", type=int, metavar="N", help="a flight of make flights, again")
+    parser.add_argument(
+        "--seed", type=int, metavar="N", help="a flight of make check NAME=flights, again"
+    )
     parser.add_argument("--plant", choices=plants.NAMES, help="in this one only")
     parser.add_argument(
         "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="flights at a time"

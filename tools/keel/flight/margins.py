@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Gain, phase and delay margin of each loop that flies the copter.
 
-    make margins
+    make check NAME=margins
 
 A linear model at the hover: the gains are the parameters' defaults, the aircraft is the F450 as
 MuJoCo's plant has it. Each loop is opened at its controller, with the loops inside it closed; "at

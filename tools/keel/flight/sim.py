@@ -8,7 +8,7 @@ the pilot then climbs to 5 m and lets go of the sticks. With --scenario he arms 
 instead. Each --address is a link of its own, at most three. A line that is typed is a command for
 the copter's console: "tasks" shows how each task has run, "help" what else there is. The flight's
 log is build/sim/sim.ulg; with --trace it has each run of each task, and at the end stands beside
-its two files of `make schedule`.
+its two files of `make generate NAME=schedule`.
 
 Exit status: 0 when it is interrupted, 1 when the aircraft crashes, 2 when it cannot be flown.
 """

@@ -24,8 +24,8 @@ PAGE = Path("docs/status.md")
 INTRODUCTION = """\
 # Status
 
-This is proved by the last complete run of `make prove-all`. `make status` writes the page from the
-run's report; nobody edits it.
+This is proved by the last complete run of `make prove-all`. `make generate NAME=status` writes
+the page from the run's report; nobody edits it.
 
 """
 HEAD = """\

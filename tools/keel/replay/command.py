@@ -142,7 +142,7 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--no-pictures", action="store_true")
     found = parser.parse_args(arguments)
     if not found.file:
-        raise ToolError("which recording? make replay FILE=flight.ulg")
+        raise ToolError("which recording? make check NAME=replay FILE=flight.ulg")
     if found.jobs < 1:
         raise ToolError(f"--jobs: expected 1 or more, found {found.jobs}")
     if found.limit_degrees is not None and not 0.0 < found.limit_degrees <= 180.0:

@@ -105,7 +105,7 @@ def run_table(options: argparse.Namespace) -> int:
     for name in wrong:
         print(
             f"{options.folder / name}:1: stale: not what {options.taskset} gives; "
-            "`make tables` regenerates it",
+            "`make generate NAME=tables` regenerates it",
             file=sys.stderr,
         )
     print(f"table: {options.folder}: {f'{len(wrong)} stale files' if wrong else 'up to date'}")

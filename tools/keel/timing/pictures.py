@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Make the pictures of the documents: docs/pictures.
 
-    make pictures
+    make generate NAME=pictures
 
-Draws what Keel is made of (layers.svg), and takes over the plots that `make campaign`,
-`make timing`, `make schedule` and flight/figure.py have left in build. Committed pictures are
-small: a larger one is refused.
+Draws what Keel is made of (layers.svg), and takes over the plots that `make check NAME=campaign`,
+`make check NAME=timing`, `make generate NAME=schedule` and flight/figure.py have left in build.
+Committed pictures are small: a larger one is refused.
 
 Exit status: 0 when all were written, 2 when one is missing or too large.
 """
@@ -113,7 +113,7 @@ def plot_layers(path: Path) -> None:
 def take(source: Path, folder: Path) -> None:
     """Copy a plot; a missing one, and one too large to be committed, is an error."""
     if not source.is_file():
-        raise ToolError(f"{source}: missing; `make pictures` makes it")
+        raise ToolError(f"{source}: missing; `make generate NAME=pictures` makes it")
     text = read_text(source)
     if len(text.encode()) > MOST_BYTES:
         raise ToolError(f"{source}: larger than {MOST_BYTES} bytes")

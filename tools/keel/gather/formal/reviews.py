@@ -5,7 +5,7 @@
     unit = "queue"
     person = "a name"
     date = "2026-11-30"
-    digest = "…"          # of what was looked at, as make review UNIT=queue tells it
+    digest = "…"          # of what was looked at, as make check NAME=review UNIT=queue tells it
     remarks = "what was found"
 
 A unit without an entry has not been reviewed. A signature over another digest than the one of what
