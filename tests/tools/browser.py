@@ -40,11 +40,12 @@ class Browser:
         self._profile = tempfile.mkdtemp()
         told, self._commands = os.pipe()
         self._answers, answered = os.pipe()
-        root = ("--no-sandbox",) if os.geteuid() == 0 else ()
+        # Neither root nor a user in a container can have Chromium's sandbox.
+        walled = os.geteuid() == 0 or os.environ.get("KEEL_CONTAINER") == "1"
         command = [
             *tools.command("chromium-headless-shell"),
             *FLAGS,
-            *root,
+            *(("--no-sandbox",) if walled else ()),
             f"--user-data-dir={self._profile}",
             "about:blank",
         ]
