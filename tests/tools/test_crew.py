@@ -158,6 +158,16 @@ class Sent(TreeTest):
             with self.assertRaisesRegex(RuntimeError, "it is too quick"):
                 cluster_worker.carry_out(sent, PROGRAM, {**order, "quick": True})
 
+    def test_the_tools_themselves_start_from_what_is_sent(self) -> None:
+        """The command and its packages: what FAKE does not need."""
+        code = "import sys; sys.path[:0] = ['tools']; import keel.install as i; i.Toolchain()"
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        sent = archive(ROOT, SENT)
+        with mock.patch.object(tempfile, "tempdir", folder.name):
+            answer = cluster_worker.carry_out(sent, ["-c", f"{code}; print('7')"], {})
+        self.assertEqual(answer, 7)
+
     def test_only_the_answer_goes_out(self) -> None:
         output, error = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(output), contextlib.redirect_stderr(error):
