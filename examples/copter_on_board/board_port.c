@@ -172,7 +172,9 @@ static void write_motors(void *context, const float output[COPTER_MOTORS])
         for (uint32_t i = 0u; i < COPTER_MOTORS; i++) {
             (void)keel_chip_pulse(i, (uint32_t)(PULSE_US + (PULSE_US * output[i]) + HALF));
         }
-        keel_chip_arm();
+        if (!board->turning) {
+            keel_chip_arm();
+        }
     } else if (board->turning) {
         keel_board_outputs_off();
     } else {

@@ -128,7 +128,7 @@ class Outputs:
 
     def __init__(self, names: Sequence[str]) -> None:
         self.pins = [pin_of(name.split()[0]) for name in names]
-        self.owners = [name.partition(" ")[2].split("_CH") for name in names]
+        self.owners = [name.partition(" ")[2].partition("_CH") for name in names]
         self.timers = timers()
         self.by_base = {timer.base: timer for timer in self.timers.values()}
         self.log: list[list[tuple[float, State]]] = [[] for _ in names]
@@ -143,7 +143,9 @@ class Outputs:
             return HIGH if (port, pin) in high else LOW
         if mode != 2:
             return FLOATS
-        name, channel = self.owners[number]
+        name, _, channel = self.owners[number]
+        if not name:
+            return OTHER
         if words.get(base + 0x20 + 4 * (pin // 8), 0) >> 4 * (pin % 8) & 0xF != FUNCTIONS[name]:
             return OTHER
         return self.timers[name].state(words, int(channel) - 1)
