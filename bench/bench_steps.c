@@ -102,7 +102,7 @@ static void bench_run_reference(void)
 
 static void bench_run_mixer(const char *name, float torque, uint8_t limited)
 {
-    const keel_mixer_config_t config = {keel_mixer_quad_x, 0.05f, 1.0f};
+    const keel_mixer_config_t config = {keel_mixer_quad_x, 0.05f, 1.0f, 0.1f};
 
     bench_require(keel_mixer_init(&bench_mixer, &config) == KEEL_OK, "mixer");
     for (uint32_t n = 0u; n < STEPS; n++) {

@@ -294,7 +294,7 @@ static void bench_reference(void)
 static void bench_mixer(const char *name, float torque, uint8_t limited)
 {
     static keel_mixer_t mixer KEEL_REALTIME_ZERO;
-    const keel_mixer_config_t settings = {keel_mixer_quad_x, 0.05f, 1.0f};
+    const keel_mixer_config_t settings = {keel_mixer_quad_x, 0.05f, 1.0f, 0.1f};
     kind_t steps = {name, 0u, 0u, 0u};
 
     require(keel_mixer_init(&mixer, &settings) == KEEL_OK);
