@@ -7,10 +7,12 @@ The harnesses are compiled and executed, for which clang 19 is needed; CBMC is n
 from __future__ import annotations
 
 import dataclasses
+import json
 import os
 import shutil
 import tempfile
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -27,6 +29,7 @@ from keel.mutate.execution import Executions, Kill, Sample, numbers_in
 from keel.mutate.harnesses import survey
 from keel.mutate.mutation import BY_CBMC, BY_WP, Tools, Trial
 from keel.mutate.operators import Mutant
+from keel.mutate.seeds import inputs_in
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import EXECUTED, Verdict, table
 from keel.prove.times import Times
@@ -79,7 +82,7 @@ class ExecutionCase(TreeTest):
     def runner(self, folder: Path) -> Runner:
         return Runner(dict(os.environ), folder)
 
-    def executions(self) -> Executions:
+    def executions(self, seeds: Callable[[], Any] | None = None) -> Executions:
         return Executions(
             self.unit,
             ("clang-19",),
@@ -88,6 +91,7 @@ class ExecutionCase(TreeTest):
             self.scratch,
             Cache(self.root / "inputs"),
             lambda: self.runner(self.root),
+            seeds,
         )
 
     def mutant(self, body: str) -> Mutant:
@@ -165,11 +169,58 @@ class Executing(ExecutionCase):
         self.assertIsNone(self.kill("*box = 4;", made))
         self.assertIn("reaches its end", made.failing["keel_box_put_harness"])
 
-    def test_one_that_replaces_functions_is_left_to_cbmc(self) -> None:
-        self.write("// replaces: helper\n" + HARNESS)
+    def stand_in(self, called_from: str) -> None:
+        """A harness with a stand-in for a function that is called from a file."""
+        models = self.root / "specs" / "model"
+        models.mkdir(parents=True, exist_ok=True)
+        twice = "int twice(int a)\n{\n    return a + a;\n}\n"
+        other = "int twice(int a);\n\nint same(int a)\n{\n    return twice(a) - a;\n}\n"
+        (models / "twice.c").write_text(twice, encoding="utf-8")
+        (models / called_from).open("a", encoding="utf-8").write(other)
+        source = self.unit.source.relative_to(self.root)
+        files = " ".join(sorted({"specs/model/twice.c", f"specs/model/{called_from}"}))
+        stand_in = """\
+int same(int a);
+static bool told;
+
+int twice_stand_in(int a)
+{
+    told = true;
+    return a + a;
+}
+
+void keel_box_put_harness"""
+        text = HARNESS.replace("void keel_box_put_harness", stand_in)
+        text = text.replace("#include", "#include <stdbool.h>\n#include", 1)
+        text = text.replace("box == value,", "(box == same(value)) && told,")
+        self.write(f"// sources: {source} {files}\n// replaces: twice\n{text}")
+
+    def test_a_stand_in_is_executed_in_the_place_of_its_function(self) -> None:
+        self.stand_in("other.c")
+        made = self.executions()
+        self.assertIsNotNone(self.kill("*box = 4;", made))
+        self.assertEqual(made.failing, {})
+        self.assertIsNone(self.kill("*box = value + 0;"))
+
+    def test_but_not_where_its_own_file_calls_it(self) -> None:
+        self.stand_in("twice.c")
         made = self.executions()
         self.assertIsNone(self.kill("*box = 4;", made))
         self.assertEqual(made.failing, {})
+
+    def test_what_no_search_finds_is_executed_when_it_is_said(self) -> None:
+        rare = "(((unsigned)value * 2654435761u) == 3735928559u)"
+        self.write(HARNESS.replace("(value >= 0) && (value < 1000)", rare))
+        made = self.executions()
+        self.assertIsNone(self.kill("*box = 4;", made))
+        self.assertIn("reaches its end", made.failing["keel_box_put_harness"])
+
+        value = 3735928559 * pow(2654435761, -1, 1 << 32) % (1 << 32)
+        told = mock.Mock()
+        told.of.return_value = inputs_in(answered([value]))
+        kill = self.kill("*box = 4;", self.executions(lambda: told))
+        assert kill
+        self.assertEqual(int(kill.values[0], 16), value)
 
     def test_where_nothing_is_arbitrary_one_execution_is_all(self) -> None:
         self.write(HARNESS.replace("= nondet_int()", "= 7"))
@@ -212,6 +263,32 @@ __CPROVER_assume(part.n == 200u);""",
             self.write(HARNESS.replace("int box = 3", "int box = 4"))
             with self.assertRaises(AssertionError):
                 self.kill("*box = 1001;")
+
+
+def answered(values: list[int]) -> str:
+    """What CBMC 6.6.0 prints of a test that it found; of the fields, those that are read."""
+    elements = [
+        {"index": place, "value": {"binary": f"{value:064b}", "width": 64}}
+        for place, value in enumerate(values)
+    ]
+    table_ = {"members": [{"name": "value", "value": {"elements": elements}}]}
+    test = {"coveredGoals": ["f.coverage.1"], "inputs": [{"id": "keel_run_seed", "value": table_}]}
+    return json.dumps([{"program": "CBMC"}, {"tests": [test]}])
+
+
+class Seeding(unittest.TestCase):
+    """What is read of an answer of CBMC."""
+
+    def test_each_value_stands_in_a_slot_behind_the_first(self) -> None:
+        [found] = inputs_in(answered([7, 0xFEDCBA9876543210]))
+        slots = [int.from_bytes(found[place : place + 8], "little") for place in (0, 8, 16)]
+        self.assertEqual(slots, [0xFF, 0x7FF, 0xDCBA9876543210FF])
+        self.assertEqual(len(found), 24)
+
+    def test_an_answer_that_breaks_off_says_nothing(self) -> None:
+        whole = answered([7])
+        for text in ("", "[]", whole[:-9], "cbmc: not found", json.dumps([{"tests": []}])):
+            self.assertEqual(inputs_in(text), [])
 
 
 class Checker:

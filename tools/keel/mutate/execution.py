@@ -19,7 +19,9 @@ What could make it wrong, and what is done about it:
 - All the same, CBMC is asked about some of the executions (`replayed`): with the very values that
   were drawn, the same assertion must fail for it. If not, the run fails.
 
-Harnesses that replace functions are left to CBMC: their stand-ins are no functions.
+Where a harness replaces a function, the linker puts its stand-in there, which it can do between
+files alone; other such harnesses are left to CBMC. Inputs that no search would find come from CBMC
+(tools/keel/mutate/seeds.py).
 """
 
 from __future__ import annotations
@@ -45,6 +47,7 @@ from keel.engines.cbmc import Cbmc
 from keel.judge.harness import Harness, without_solver
 from keel.mutate.harnesses import Seen, in_tree
 from keel.mutate.operators import Mutant
+from keel.mutate.seeds import Seeds, program
 from keel.mutate.verdicts import EXECUTED
 
 OWN = Path(__file__).resolve().parent
@@ -140,7 +143,7 @@ class Sample:
 
 def judge() -> str:
     """SHA-256 over what executes."""
-    files = [*RUNTIME, Path(__file__)]
+    files = [*RUNTIME, Path(__file__), OWN / "seeds.py"]
     return digest({path.name: path.read_text(encoding="utf-8") for path in files})
 
 
@@ -167,13 +170,19 @@ def drawn(texts: Sequence[str]) -> dict[str, str]:
     return found
 
 
+def _calls(name: str, text: str) -> bool:
+    """Whether a file that defines a function calls it, too, which no linker sees."""
+    bodies = [one.body for one in csource.defined(text) if one.name == name and one.body]
+    return bool(bodies) and len(re.findall(rf"\b{name}\s*\(", csource.code_only(text))) > 1
+
+
 class Wrapping:
     """A harness with functions that give the values which are arbitrary in it."""
 
     def __init__(self, harness: Harness, files: Sequence[Path]) -> None:
-        if harness.replaces:
-            raise ProjectError(f"{harness.name}: replaces functions")
         texts = [csource.read(path) for path in files]
+        if inside := [name for name in harness.replaces if any(_calls(name, x) for x in texts)]:
+            raise ProjectError(f"{harness.name}: {inside[0]} is called where it is defined")
         self._harness = harness
         self._types = drawn(texts)
         self._known = declarations.structures(texts)
@@ -228,6 +237,7 @@ class Wrapping:
         return "\n".join(
             [
                 *(f"#define {one} {name}_{one}" for one in sorted(self._types)),
+                *(f"#define {one}_stand_in __wrap_{one}" for one in self._harness.replaces),
                 f'#include "{path}"',
                 *self._functions(),
                 f"static const double keel_run_numbers[] = {{{numbers}}};",
@@ -236,6 +246,10 @@ class Wrapping:
                 "",
             ]
         )
+
+    def seeding(self, path: Path) -> str:
+        """For CBMC, which is to say what may be drawn."""
+        return program(RUNTIME[1], path, self._harness.name, self._functions())
 
     def replay(self, path: Path, values: Sequence[str]) -> str:
         """For CBMC: nothing is arbitrary any more."""
@@ -297,6 +311,7 @@ class Executions:
         scratch: Path,
         cache: Cache,
         unchanged: Callable[[], Runner],
+        seeds: Callable[[], Seeds] | None = None,
     ) -> None:
         self._root = unit.root.resolve()
         self._unit = unit.name
@@ -306,6 +321,7 @@ class Executions:
         self._scratch = scratch / "executed"
         self._cache = cache
         self._unchanged = unchanged
+        self._seeds = seeds
         self._lock = threading.RLock()
         self._wrappings: dict[str, Wrapping | None] = {}
         self._ready: dict[str, Ready | None] = {}
@@ -353,14 +369,18 @@ class Executions:
         return None
 
     def _groups(self, harnesses: Sequence[Harness], file: Path) -> Iterable[list[Harness]]:
-        """Harnesses that make one program: where the mutant is in a header, each its own."""
+        """Harnesses that make one program: where the mutant is in a header, each its own.
+
+        So does one with stand-ins, which may be those of its model as well.
+        """
         if file.suffix == ".h":
             usable = (one for one in harnesses if self._prepared(one))
             return ([one] for one in islice(usable, ALONE))
         groups: dict[tuple[str, ...], list[Harness]] = {}
         for one in harnesses:
             if self._prepared(one):
-                groups.setdefault(one.defines, []).append(one)
+                apart = (one.name,) if one.replaces else ()
+                groups.setdefault((*one.defines, *apart), []).append(one)
         return groups.values()
 
     def _parts(
@@ -477,6 +497,7 @@ class Executions:
         program = place / "program"
         linker = ["-fuse-ld=gold"] if shutil.which("ld.gold") else []  # which is faster
         linker += ["-Wl,--gc-sections"]  # as for CBMC, what nobody calls need not be whole
+        linker += [f"-Wl,--wrap={name}" for one in harnesses for name in one.replaces]
         done = runner.run(
             [*self._clang, *CHECKED, *linker, *more, *map(str, objects), "-o", str(program)]
         )
@@ -540,6 +561,8 @@ class Executions:
         first = self._execute(plain, "run", [(harness.name, place, 2)], runner)
         if re.search(rf"^PASSED {harness.name} 1 0 0 0$", first.output, re.M):
             return self._passing(harness, plain, place, b"", runner)  # nothing is arbitrary in it
+        for number, seed in enumerate(self._seeded(harness)):
+            (corpus / f"seed{number}").write_bytes(seed)
         extra = ["-fsanitize=fuzzer-no-link", "-DKEEL_RUN_SEARCH"]
         search = self._program(
             [harness], None, self._root, folder, runner, extra, ["-fsanitize=fuzzer"]
@@ -556,6 +579,13 @@ class Executions:
             if path.stat().st_size % 8 == 0
         )
         return self._passing(harness, plain, place, inputs, runner)
+
+    def _seeded(self, harness: Harness) -> list[bytes]:
+        """What CBMC says leads to each place; nothing where a solver of equations is needed."""
+        wrapping = self.wrapping(harness.name)
+        if not self._seeds or not wrapping or "--z3" in harness.options:
+            return []
+        return self._seeds().of(harness, wrapping.seeding(harness.path))
 
     def _passing(
         self, harness: Harness, program: Path, place: Path, inputs: bytes, runner: Runner

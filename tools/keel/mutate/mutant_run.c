@@ -9,8 +9,8 @@
  *
  * An input is a list of slots of 64 bits. The first seeds what the others do not say, each of the
  * others is one value, most of them such as matter: small, one of the harness's numbers, one that
- * was drawn before, and what lies beside these. The input with a number is the same on every
- * machine and does not depend on what was executed before it.
+ * was drawn before, and what lies beside these; or it says the value (LITERAL). The input with a
+ * number is the same on every machine and does not depend on what was executed before it.
  *
  * What is not defined by C traps (the sanitizers) and ends the execution, and shows nothing. Nor
  * does one that goes on for too long.
@@ -27,6 +27,7 @@
 
 #pragma clang section bss = "" data = ""
 
+#define LITERAL     0xFFu /* in a slot's lowest byte: the others are the value */
 #define SLOTS       4096u
 #define DRAWS       65536u
 #define KEPT        1024u
@@ -150,6 +151,9 @@ static float drawn_float(uint64_t slot)
     const uint32_t kind = slot & 0xFFu;
     const uint64_t rest = slot >> 8;
 
+    if (kind == LITERAL) {
+        return float_of((uint32_t)rest);
+    }
     if (kind < 16u) {
         return float_of((uint32_t)mixed(slot));
     }
@@ -186,6 +190,9 @@ static uint64_t drawn_int(uint64_t slot, uint64_t most)
     const uint64_t down = ((rest & 7u) == 2u) ? UINT64_MAX : 0u;
     const uint64_t step = ((rest & 7u) == 1u) ? 1u : down;
 
+    if (kind == LITERAL) {
+        return rest;
+    }
     if (kind < 24u) {
         return mixed(slot);
     }
@@ -229,7 +236,8 @@ uint64_t keel_run_int(size_t size)
 
 bool keel_run_bool(void)
 {
-    const bool value = ((next_slot() >> 16) & 1u) != 0u;
+    const uint64_t slot = next_slot();
+    const bool value = ((slot >> (((slot & LITERAL) == LITERAL) ? 8u : 16u)) & 1u) != 0u;
 
     values[draws] = value ? 1u : 0u;
     return value;

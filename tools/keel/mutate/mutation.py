@@ -23,6 +23,7 @@ from keel.judge.settings import Exceptions
 from keel.mutate.execution import CONFIRMING, Executions, Sample
 from keel.mutate.harnesses import Seen, in_tree, survey
 from keel.mutate.operators import Mutant
+from keel.mutate.seeds import SECONDS, Seeds
 from keel.mutate.small_harnesses import TIME, WALL, Small
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import Identity, Verdict
@@ -135,6 +136,7 @@ class Trial:
                 tools.scratch,
                 Cache(tools.inputs),
                 lambda: self._runner(unit.root),
+                self._seeds,
             )
             if tools.clang
             else None
@@ -389,6 +391,12 @@ class Trial:
     def _unchanged(self) -> cbmc.Cbmc:
         """What asks about the tree itself."""
         return self._checker(self._unit.root, self._runner(self._unit.root))
+
+    def _seeds(self) -> Seeds:
+        """What finds inputs for harnesses that are executed."""
+        root = self._unit.root
+        command = [*LIMITED, str(SECONDS), *self._tools.cbmc]
+        return Seeds(command, self._unchanged(), self._runner(root), root)
 
     def _checker(self, root: Path, runner: Runner, limit: float = 0.0) -> cbmc.Cbmc:
         """CBMC, with a limit of its processor time if there is one."""
