@@ -16,7 +16,7 @@ from keel.base.files import write_text
 from keel.install.found import Found, path_outside
 from keel.install.groups import TOOLS_DIR
 from keel.install.lock import Lock, Spec
-from keel.install.prover_limits import within_limits
+from keel.install.prover_scripts import script_of
 from keel.install.provers import MACHDEP_FILE
 
 
@@ -53,7 +53,7 @@ class Findings:
 
         Clones that start them differently have one each.
         """
-        chosen = within_limits("")
+        chosen = script_of("")
         for name in (*(prover.lower() for prover in spec.provers), "why3"):
             finding = self.get(self.lock.tools[name])
             if not finding:
