@@ -10,13 +10,16 @@ import sys
 from collections.abc import Iterator
 
 PROGRAM = "while True:\n    pass\n"
+# Others' work: it is in a session of its own, so that its time is not the test's, and ends with it.
+OTHERS = "import os\ntest = os.getppid()\nwhile os.getppid() == test:\n    pass\n"
 CORES = os.cpu_count() or 1
 
 
 @contextlib.contextmanager
 def busy(programs: int) -> Iterator[None]:
     """As many endless programs run."""
-    children = [subprocess.Popen([sys.executable, "-c", PROGRAM]) for _ in range(programs)]
+    line = [sys.executable, "-c", OTHERS]
+    children = [subprocess.Popen(line, start_new_session=True) for _ in range(programs)]
     try:
         yield
     finally:
