@@ -172,8 +172,8 @@ def drawn(texts: Sequence[str]) -> dict[str, str]:
 
 def _calls(name: str, text: str) -> bool:
     """Whether a file that defines a function calls it, too, which no linker sees."""
-    bodies = [one.body for one in csource.defined(text) if one.name == name and one.body]
-    return bool(bodies) and len(re.findall(rf"\b{name}\s*\(", csource.code_only(text))) > 1
+    found = len(re.findall(rf"\b{name}\s*\(", csource.code_only(text)))
+    return found > 1 and any(one.name == name for one in csource.defined(text))
 
 
 class Wrapping:

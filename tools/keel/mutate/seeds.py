@@ -3,8 +3,8 @@
 
 A frame with a right checksum, behind a beginning that is right as well, is one of 2^40. CBMC is
 asked what to draw so that each block of the functions that a harness covers is reached, and all
-assumptions hold. What it says is only an input: it is executed as any other, and counts for
-nothing unless that execution comes to its end on the unchanged code.
+assumptions hold. Its answer is only an input: it is executed as any other, and counts for nothing
+unless that execution comes to its end on the unchanged code.
 """
 
 from __future__ import annotations
