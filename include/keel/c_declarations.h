@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file c_declarations.h
- * @brief What stands around the declarations of a header, so that C++ finds the functions of C.
+ * @brief Stands around the declarations of a header, so that C++ finds the functions of C.
  */
 #ifndef KEEL_C_DECLARATIONS_H
 #define KEEL_C_DECLARATIONS_H

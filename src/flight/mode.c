@@ -255,7 +255,7 @@ static bool has_settled(const keel_mode_t *mode, uint32_t facts)
     return (mode->settled & facts) == facts;
 }
 
-/* --- What the pilot asks for ------------------------------------------------------------------ */
+/* --- The pilot's wishes ----------------------------------------------------------------------- */
 
 /* Whether the mode switch was moved. Where it is when the link comes up is no move. */
 /*@ requires \valid(mode);
@@ -341,7 +341,7 @@ static bool try_to_arm(keel_mode_t *mode, uint32_t checks, bool attempt)
     return attempt && ((mode->blocking.checks | mode->blocking.facts) == 0u);
 }
 
-/* --- What has come ---------------------------------------------------------------------------- */
+/* --- Facts that have come --------------------------------------------------------------------- */
 
 /*@ assigns \nothing;
   @ ensures \result == (condition ? event : 0);

@@ -47,7 +47,7 @@
   @     \forall integer n; ulog_length(name, n) ==>
   @         \forall integer k; 0 <= k < n ==> m->bytes[at + k] == name->text[k];
   @
-  @ // What was there is, with so many bytes behind it at most; those fit, if that many do.
+  @ // The bytes that were there are, with so many behind them at most; those fit, if that many do.
   @ predicate ulog_kept{L, M}(keel_ulog_message_t *m, integer most) =
   @     ulog_valid{M}(m) && (\at(m->overflowed, L) != 0 ==> \at(m->overflowed, M) != 0) &&
   @     \at(m->size, L) <= \at(m->size, M) <= \at(m->size, L) + most &&

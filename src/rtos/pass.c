@@ -70,7 +70,7 @@ static uint64_t find_earliest_realtime(const keel_scheduler_t *scheduler)
     return keel_decision_earliest_us(&scheduler->queue);
 }
 
-/* Which other task runs now that no real-time task is due. Looks at none of them while the earliest
+/* The other task that runs now that no real-time task is due. Looks at none while the earliest
  * of their releases lies ahead. */
 /*@ requires \valid_read(scheduler) && scheduler_valid(scheduler) && in_uptime(scheduler);
   @ requires is_earliest(&scheduler->queue, 0, scheduler->queue.realtime_count, realtime_us);

@@ -19,8 +19,7 @@ from endless import PROGRAM as ENDLESS
 from keel.base import run
 from keel.base.jobs import Runner
 from keel.install import Toolchain, ToolchainError, small_environment
-from keel.install.prover_scripts import script_of
-from keel.install.provers import CLOCK_PER_PROCESSOR
+from keel.install.provers import CLOCK_PER_PROCESSOR, by_processor_time
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -93,7 +92,7 @@ class Provers(unittest.TestCase):
     def script(self, program: str) -> str:
         """The script that starts a program."""
         place = self.folder / "script"
-        place.write_text(script_of(program), encoding="utf-8")
+        place.write_text(by_processor_time(program), encoding="utf-8")
         place.chmod(0o755)
         return str(place)
 

@@ -200,6 +200,14 @@ class CSource(unittest.TestCase):
             csource.essence('/*@ x */\nint a; // y\n\nf("//z");\n'), 'int a;\nf("//z");'
         )
 
+    def test_prose_is_dropped_and_every_line_stays(self) -> None:
+        self.assertEqual(
+            csource.without_prose(
+                "/* a\n b */ int x; // y\n/*@ p; // q\n  @ r; */ //\n//@ s; // t\n"
+            ),
+            "\n int x;\n/*@ p;\n  @ r; */\n//@ s;",
+        )
+
     def test_all_c_of_keel_is_parsed(self) -> None:
         # A type as the argument of a macro, and an attribute behind a macro of the file's own.
         hidden = {"tests/property/lockstep.c", "tests/target/faults.c"}

@@ -64,7 +64,7 @@ typedef struct keel_altitude {
 /*@ predicate altitude_pressure(keel_altitude_sample_t *s) = s->has_pressure &&
   @     axis_number(s->pressure, KEEL_ALTITUDE_PRESSURE_MIN, KEEL_ALTITUDE_PRESSURE_MAX);
   @
-  @ // What init establishes and every step keeps, besides its axis.
+  @ // Init establishes this and every step keeps it, besides its axis.
   @ predicate altitude_referenced(keel_altitude_t *a) = a->has_reference ==>
   @     axis_number(a->reference, KEEL_ALTITUDE_PRESSURE_MIN, KEEL_ALTITUDE_PRESSURE_MAX);
   @*/

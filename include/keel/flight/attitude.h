@@ -274,7 +274,7 @@ typedef struct keel_attitude {
   @     attitude_number(v.x, -most, most) && attitude_number(v.y, -most, most) &&
   @     attitude_number(v.z, -most, most);
   @
-  @ // What |q|^2, as computed, leaves a component of a unit quaternion: 1 + 2^-10 at most.
+  @ // A component of a unit quaternion, by |q|^2 as computed: 1 + 2^-10 at most.
   @ predicate attitude_components(keel_attitude_quaternion_t q) =
   @     attitude_number(q.w, -0x1.004p+0, 0x1.004p+0) &&
   @     attitude_number(q.x, -0x1.004p+0, 0x1.004p+0) &&

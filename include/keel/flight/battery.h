@@ -260,7 +260,7 @@ typedef struct keel_battery {
   @ predicate battery_alarm(keel_battery_alarm_t a, integer most) =
   @     a.count <= most && (a.raised ==> 0 < a.count);
   @
-  @ // What a step asks of a monitor: what init establishes and every step keeps.
+  @ // A step asks this of a monitor; init establishes it and every step keeps it.
   @ predicate battery_counts(keel_battery_t b) =
   @     0 < b.config.hold_steps && 0 < b.config.settle_steps &&
   @     b.charge.part < KEEL_BATTERY_QUANTA && b.energy.part < KEEL_BATTERY_QUANTA &&

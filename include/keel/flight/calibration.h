@@ -178,7 +178,7 @@ typedef struct keel_calibration_field {
   @     calibration_number(c.span_min, 0, c.span_max) && 0 < c.span_min &&
   @     calibration_number(c.limit, 0, KEEL_CALIBRATION_LIMIT);
   @
-  @ // What a step asks for: what init establishes and every step keeps.
+  @ // A step asks for this; init establishes it and every step keeps it.
   @ predicate calibration_rest_counts(keel_calibration_rest_t *r) =
   @     \is_finite(r->config.spread) && \is_finite(r->config.limit) &&
   @     r->count <= KEEL_CALIBRATION_SAMPLES_MAX;
@@ -187,7 +187,7 @@ typedef struct keel_calibration_field {
   @     \is_finite(c.lowest) && \is_finite(c.highest) && \is_finite(c.span_min) &&
   @     \is_finite(c.span_max) && \is_finite(c.limit);
   @
-  @ // What init establishes and every function keeps. A sum is at most as many times the limit.
+  @ // Init establishes this and every function keeps it. A sum is at most as many times the limit.
   @ predicate calibration_sum(keel_calibration_rest_t *r, integer k) = calibration_number(r->sum[k],
   @     -r->count * KEEL_CALIBRATION_LIMIT, r->count * KEEL_CALIBRATION_LIMIT);
   @
@@ -488,7 +488,7 @@ void keel_calibration_correct(const keel_calibration_correction_t *correction,
                               keel_calibration_vector_t *out);
 
 /**
- * Which side points up, by what an accelerometer says at rest: one axis has at least so much of
+ * The side that points up, by an accelerometer at rest: one axis has at least so much of
  * gravity, the others at most so much (requirement CAL-016).
  *
  * @param mean  what it says; any bit pattern

@@ -186,7 +186,7 @@ typedef struct keel_cascade {
     keel_cascade_axis_t axis[KEEL_CASCADE_AXES];
     keel_cascade_fence_t fence;
     float hover;
-    uint32_t axes;                  /**< Which axes the mode flies: bit 1u << axis. */
+    uint32_t axes;                  /**< The axes that the mode flies: bit 1u << axis. */
     uint32_t gave_way;              /**< The parts that the mixer gave up last. */
     keel_cascade_vector_t velocity; /**< The position stage asks for this, in m/s. */
     keel_cascade_tilt_t tilt;       /**< The velocity stage asks for this, in sines. */
@@ -217,7 +217,7 @@ typedef struct keel_cascade {
   @     cascade_number(f.reaction_s, 0, KEEL_CASCADE_REACTION_MAX_S) &&
   @     cascade_number(f.twice_braking, 0, 2 * KEEL_CASCADE_ACCELERATION_MAX);
   @
-  @ // What init establishes, and every step keeps.
+  @ // Init establishes this, and every step keeps it.
   @ predicate cascade_valid(keel_cascade_t *c) =
   @     (\forall integer i; 0 <= i < KEEL_CASCADE_AXES ==> cascade_axis_valid(&c->axis[i])) &&
   @     (\forall integer i; 0 <= i <= KEEL_CASCADE_YAW_RATE ==>

@@ -92,7 +92,7 @@ typedef struct keel_filter {
   @
   @ predicate filter_bounded(keel_filter_t filter) = filter_low(filter) || filter_high(filter);
   @
-  @ // What init establishes and every step keeps.
+  @ // Init establishes this, and every step keeps it.
   @ predicate filter_valid(keel_filter_t filter) =
   @     filter_coefficients(filter) && filter_bounded(filter);
   @

@@ -120,7 +120,7 @@ typedef struct keel_mixer {
   @     \is_finite(config.highest) && KEEL_MIXER_HIGHEST_MIN <= config.highest <= 1 &&
   @     \is_finite(config.yaw_share) && 0 <= config.yaw_share <= KEEL_MIXER_YAW_SHARE_MAX;
   @
-  @ // What init establishes and every step keeps.
+  @ // Init establishes this, and every step keeps it.
   @ predicate mixer_valid(keel_mixer_t *mixer) =
   @     mixer_geometry(mixer->config.geometry) && mixer_range(mixer->config) &&
   @     \forall integer i; mixer->config.geometry.motors <= i < KEEL_MIXER_MOTORS ==>

@@ -198,7 +198,7 @@ typedef struct keel_mode {
   @ predicate mode_frame(keel_mode_input_t *i) =
   @     mode_has(i->facts, KEEL_MODE_RC_LINKED) && i->asked < KEEL_MODE_NONE;
   @
-  @ // What has to hold for a time holds for at least the longest silence.
+  @ // A fact that has to hold for a time holds for at least the longest silence.
   @ predicate mode_settling(keel_mode_config_t *c, integer time_us) =
   @     c->loss_us <= time_us <= KEEL_MODE_TIME_MOST_US;
   @
@@ -216,7 +216,7 @@ typedef struct keel_mode {
   @     m->state < KEEL_MODE_STATES && m->mode <= KEEL_MODE_NONE && m->asked <= KEEL_MODE_NONE &&
   @     m->rests_at <= KEEL_MODE_NONE;
   @
-  @ // What each fact takes to settle.
+  @ // The time that each fact takes to settle.
   @ predicate mode_settle_valid(keel_mode_t *m) =
   @     m->settle_us[0] == m->config.regain_us && m->settle_us[1] == m->config.request_us &&
   @     m->settle_us[2] == m->config.request_us && m->settle_us[3] == m->config.request_us &&
@@ -226,7 +226,7 @@ typedef struct keel_mode {
   @     m->settle_us[10] == m->config.estimate_us && m->settle_us[11] == m->config.alarm_us &&
   @     m->settle_us[12] == m->config.alarm_us && m->settle_us[13] == m->config.alarm_us;
   @
-  @ // What init establishes and every step keeps.
+  @ // Init establishes this, and every step keeps it.
   @ predicate mode_valid(keel_mode_t *m) =
   @     mode_config_valid(&m->config) && mode_numbers_valid(m) && mode_settle_valid(m) &&
   @     (m->motors <==> mode_runs(m)) && (m->mode == KEEL_MODE_NONE <==> !mode_runs(m)) &&

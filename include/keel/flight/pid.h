@@ -111,17 +111,17 @@ typedef struct keel_pid {
   @
   @ predicate pid_input(float value) = filter_magnitude(value, KEEL_PID_INPUT_LIMIT);
   @
-  @ // What the output and the integral never leave.
+  @ // The output and the integral never leave this.
   @ predicate pid_bounded(keel_pid_t pid) =
   @     pid_within(pid.output, pid.config.output_min, pid.config.output_max) &&
   @     pid_within(pid.integral, pid.config.integral_min, pid.config.integral_max);
   @
-  @ // What the last step left behind for a change of gains.
+  @ // The last step left this behind for a change of gains.
   @ predicate pid_remembers(keel_pid_t pid) =
   @     pid_input(pid.setpoint) && filter_input(pid.error) &&
   @     filter_magnitude(pid.derivative, KEEL_PID_DERIVATIVE_LIMIT);
   @
-  @ // What init establishes, and reset, set_gains and every step keep.
+  @ // Init establishes this, and reset, set_gains and every step keep it.
   @ predicate pid_valid(keel_pid_t pid) =
   @     pid_gains(pid.config.gains) && pid_limits(pid.config) && filter_rate(pid.config.rate_hz) &&
   @     filter_magnitude(pid.integral_gain, KEEL_PID_INTEGRAL_GAIN_LIMIT) &&

@@ -166,14 +166,14 @@ typedef struct keel_reference {
   @     reference_limit(limits.climb_rate, KEEL_REFERENCE_SPEED_MAX) &&
   @     reference_limit(limits.descent_rate, KEEL_REFERENCE_SPEED_MAX);
   @
-  @ // What a step needs of a curve; the end is reached: REF-003 has it.
+  @ // A step needs this of a curve; the end is reached: REF-003 has it.
   @ predicate reference_curve(keel_reference_curve_t curve) =
   @     reference_between(curve.dead_band, KEEL_REFERENCE_DEAD_BAND_MIN,
   @         KEEL_REFERENCE_DEAD_BAND_MAX) &&
   @     reference_between(curve.scale, 1, 2.5) && reference_between(curve.linear, 0, 1) &&
   @     reference_between(curve.expo, 0, 1) && curve.linear == (float)(1 - curve.expo);
   @
-  @ // What init establishes and every step keeps.
+  @ // Init establishes this, and every step keeps it.
   @ predicate reference_valid(keel_reference_t reference) =
   @     reference_curve(reference.roll) && reference_curve(reference.pitch) &&
   @     reference_curve(reference.yaw) && reference_curve(reference.climb) &&
@@ -203,7 +203,7 @@ typedef struct keel_reference {
   @ logic float reference_rounded_off(float own, float across) = (float)(
   @     own * (float)(1 - (float)(KEEL_REFERENCE_CORNER * (float)(across * across))));
   @
-  @ // What a limit makes of a deflection.
+  @ // A limit makes this of a deflection.
   @ predicate reference_asked(float setpoint, float limit, float deflection) =
   @     setpoint == (float)(limit * deflection);
   @*/

@@ -76,8 +76,8 @@ typedef struct keel_crsf_link {
     uint8_t rssi[2]; /**< Strength of the signal at each antenna, in -dBm: 90 is -90 dBm. */
     uint8_t quality; /**< Of 100 packets, how many came; 0: none. */
     int8_t snr;      /**< Signal to noise; in dB, or in quarters of it, by the receiver. */
-    uint8_t antenna; /**< Which antenna is used, 0 or 1. */
-    uint8_t mode;    /**< Which mode of the radio, by its maker. */
+    uint8_t antenna; /**< The antenna in use, 0 or 1. */
+    uint8_t mode;    /**< The mode of the radio, by its maker. */
 } keel_crsf_link_t;
 
 /** Counts since the start. */
@@ -119,7 +119,7 @@ typedef struct keel_crsf {
   @     byte == KEEL_CRSF_HEADER || byte == KEEL_CRSF_HEADER_ALL ||
   @     byte == KEEL_CRSF_HEADER_RECEIVER || byte == KEEL_CRSF_HEADER_MODULE ? 1 : 0;
   @
-  @ // What a frame begins with is as it was made.
+  @ // A frame begins as it was made.
   @ predicate crsf_headers(keel_crsf_t *s) =
   @     s->framing.header[0] == KEEL_CRSF_HEADER &&
   @     s->framing.header[1] == KEEL_CRSF_HEADER_ALL &&
@@ -134,7 +134,7 @@ typedef struct keel_crsf {
   @     count <= 0 ? KEEL_CRC8_FIRST :
   @         (crc_up(crsf_crc(bytes, count - 1) ^ bytes[count - 1], 8) & 0xFF);
   @
-  @ // What is held, and behind it a byte that came.
+  @ // The bytes held, and behind them a byte that came.
   @ logic integer crsf_came(keel_crsf_t *s, integer byte, integer j) =
   @     j < s->framing.held ? s->framing.byte[j] : byte;
   @
@@ -147,7 +147,7 @@ typedef struct keel_crsf {
   @ logic integer crsf_field(keel_crsf_t *s, integer byte, integer i) =
   @     (crsf_window(s, byte, 3 + (11 * i) / 8) >> ((11 * i) % 8)) & 2047;
   @
-  @ // What a frame of this type and length is.
+  @ // The kind of a frame of this type and length.
   @ logic integer crsf_kind(integer type, integer length) =
   @     type == KEEL_CRSF_TYPE_CHANNELS ?
   @         (length >= KEEL_CRSF_LENGTH_CHANNELS ? (integer)KEEL_CRSF_TOOK_CHANNELS

@@ -47,7 +47,7 @@ typedef struct keel_framing {
   @     byte == f->header[0] || byte == f->header[1] || byte == f->header[2] ||
   @     byte == f->header[3] ? 1 : 0;
   @
-  @ // What is held begins with a header.
+  @ // The bytes held begin with a header.
   @ predicate framing_begins(keel_framing_t *f) =
   @     f->held <= KEEL_FRAMING_BYTES && (f->held > 0 ==> framing_header(f, f->byte[0]));
   @

@@ -60,7 +60,7 @@ KEEL_C_BEGIN
 typedef struct keel_ibus_config {
     uint32_t gap_us;  /**< Silence that ends a partial frame when it is longer, in us; more than 0.
                            Between a byte's time, 87, and the silence between frames, 4000. */
-    uint32_t judged;  /**< Which channels' range is judged: bit i for channel i + 1; 0x0000F is
+    uint32_t judged;  /**< The channels whose range is judged: bit i for channel i + 1; 0x0000F is
                            usual, the sticks. */
     uint16_t lowest;  /**< The smallest value of a channel that is judged, in us; 885 is usual. */
     uint16_t highest; /**< The largest, lowest to KEEL_IBUS_CHANNEL_MAX; 2115 is usual. */
@@ -115,12 +115,12 @@ typedef struct keel_ibus {
   @ predicate ibus_in_range(keel_ibus_t *s, integer value) =
   @     s->config.lowest <= value <= s->config.highest;
   @
-  @ // What has no channel is not judged.
+  @ // A bit without a channel judges nothing.
   @ predicate ibus_judged(keel_ibus_t *s, integer i) =
   @     0 <= i < (s->config.extended != 0 ? KEEL_IBUS_CHANNELS : KEEL_IBUS_WORDS) &&
   @     ((s->config.judged >> i) & 1) != 0;
   @
-  @ // What is held is right, but for its first two bytes.
+  @ // The bytes held are right, but for the first two.
   @ predicate ibus_right(keel_ibus_t *s) =
   @     ibus_sum(&s->framing.byte[0], 30) + ibus_word(s, 14) == 65535 &&
   @     \forall integer i; ibus_judged(s, i) ==> ibus_in_range(s, ibus_field(s, i));

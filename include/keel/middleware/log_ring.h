@@ -9,7 +9,7 @@
  * again the count is handed out, once, with the time of the first that was lost, so that the writer
  * can say in the log itself what is missing, before it goes on.
  *
- * Which side writes what: the writer writes head, loss and the free bytes of the buffer, the reader
+ * Each side writes its own: the writer writes head, loss and the buffer's free bytes, the reader
  * writes tail alone. The order: the writer reads tail, writes its bytes, and last of all head; the
  * reader reads head, copies bytes out, and last of all writes tail. Each index is read once and
  * written once in a call. So the sides need no lock: what the one has not seen yet of the other is

@@ -174,7 +174,7 @@ typedef struct keel_mavlink_packet {
   @ predicate mavlink_is_of(uint8_t *bytes, keel_mavlink_message_t *message) =
   @     message->id == mavlink_id(bytes) && message->shortest <= bytes[1] <= message->longest;
   @
-  @ // What keel_crc16 comes to.
+  @ // keel_crc16 comes to this.
   @ logic integer mavlink_crc16(integer crc, integer byte) =
   @     crc_down(crc ^ byte, KEEL_CRC16_POLYNOMIAL, 8) & 0xFFFF;
   @
@@ -222,7 +222,7 @@ typedef struct keel_mavlink_packet {
   @     \separated(m, m->messages + (0 .. m->known - 1)) &&
   @     mavlink_table(m->messages, m->known);
   @
-  @ // What a frame says beside its payload and signature.
+  @ // The fields of a frame beside its payload and signature.
   @ predicate mavlink_header_of{L, M}(keel_mavlink_t *m) =
   @     \at(m->frame.length, M) == \at(m->bytes[1], L) &&
   @     (\at(m->frame.is_signed, M) != 0 <==> \at(m->bytes[2], L) != 0) &&
@@ -249,7 +249,7 @@ typedef struct keel_mavlink_packet {
   @     (\forall integer i; 0 <= i < KEEL_MAVLINK_SEAL_BYTES ==>
   @         \at(m->frame.seal[i], M) == \at(m->frame.seal[i], L));
   @
-  @ // What is left of a payload without its trailing zeros.
+  @ // The part of a payload that is left without its trailing zeros.
   @ predicate mavlink_cut(uint8_t *payload, integer length, integer cut) =
   @     1 <= cut <= length && (cut > 1 ==> payload[cut - 1] != 0) &&
   @     \forall integer i; cut <= i < length ==> payload[i] == 0;

@@ -102,7 +102,7 @@ typedef struct keel_ms5611_sample {
   @ logic integer ms5611_pressure(integer d1, integer offset, integer sensitivity) =
   @     ((d1 * sensitivity) / 2097152 - offset) / 32768;
   @
-  @ // What the readings amount to.
+  @ // The readings amount to this.
   @ logic integer ms5611_pressure_of(keel_ms5611_t *m, integer d1, integer d2) =
   @     \let difference = ms5611_difference(m, d2);
   @     \let first = ms5611_first(m, difference);

@@ -43,7 +43,7 @@ typedef struct keel_ppm_config {
     uint16_t lowest_us;  /**< The shortest channel that is judged; 800 is usual. */
     uint16_t highest_us; /**< The longest, not below the shortest; 2200 is usual. */
     uint16_t sync_us;    /**< The shortest sync gap, above the longest channel; 2300 is usual. */
-    uint16_t judged;     /**< Which channels are: bit i for channel i + 1; 0x000F is usual, the
+    uint16_t judged;     /**< The channels that are: bit i for channel i + 1; 0x000F is usual, the
                               sticks. */
     uint8_t least;       /**< The fewest channels of a right frame, 1 to KEEL_PPM_CHANNELS. */
     uint8_t frames_to_take; /**< So many right frames in a row; more than 0. */

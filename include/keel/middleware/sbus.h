@@ -62,7 +62,7 @@ typedef struct keel_sbus_config {
                            Between a byte's time, 120, and the silence between frames, 3000. */
     uint16_t lowest;  /**< The smallest value of a channel that is judged; 8 is usual, 885 us. */
     uint16_t highest; /**< The largest, lowest to KEEL_SBUS_CHANNEL_MAX; 1976 is usual, 2115 us. */
-    uint16_t judged;  /**< Which channels are: bit i for channel i + 1; 0x000F is usual, the
+    uint16_t judged;  /**< The channels that are: bit i for channel i + 1; 0x000F is usual, the
                            sticks. */
 } keel_sbus_config_t;
 

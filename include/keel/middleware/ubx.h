@@ -63,7 +63,7 @@ KEEL_C_BEGIN
 #define KEEL_UBX_SUM_B  3 /**< The second. */
 /** @} */
 
-/** @name Which message it is. */
+/** @name The messages. */
 /** @{ */
 #define KEEL_UBX_OTHER 0 /**< None of those below. */
 #define KEEL_UBX_PVT   1 /**< NAV-PVT. */
@@ -220,7 +220,7 @@ typedef struct keel_ubx_message {
   @     from < KEEL_UBX_WEEK_MS && to < KEEL_UBX_WEEK_MS &&
   @     (from < to ? to - from < KEEL_UBX_WEEK_MS / 2 : from - to > KEEL_UBX_WEEK_MS / 2);
   @
-  @ // What a key tells of its value's length.
+  @ // The part of a key that tells its value's length.
   @ logic integer ubx_size(integer key) = (key / 0x10000000) % 8;
   @
   @ // A message with this payload's length is whole but for its payload and checksum.

@@ -67,7 +67,7 @@ typedef struct keel_admission {
   @     a.realtime_demand_us < KEEL_PERIOD_LIMIT_US &&
   @     a.longest_other_us <= UINT32_MAX && a.tasks <= KEEL_QUEUE_CAPACITY && admissible(a);
   @
-  @ // What the totals become with one more task.
+  @ // The totals with one more task.
   @ logic integer with_period(integer shortest_us, integer priority, integer period_us) =
   @     (priority == KEEL_PRIORITY_REALTIME) ? \min(shortest_us, period_us) : shortest_us;
   @
@@ -175,7 +175,7 @@ void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
 keel_status_t keel_admission_admit(keel_admission_t *admission, uint32_t priority,
                                    uint32_t period_us, uint32_t budget_us);
 
-/*@ // What admission asks of the order: that each of its tasks has a slot.
+/*@ // Admission asks of the order that each of its tasks has a slot.
   @ predicate queue_slots(keel_queue_t *q) =
   @     \forall integer i; 0 <= i < q->count ==> q->order[i] < KEEL_QUEUE_CAPACITY;
   @

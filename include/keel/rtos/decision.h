@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file decision.h
- * @brief Which task runs now: pure functions over the queue, which change nothing.
+ * @brief The task that runs now: pure functions over the queue, which change nothing.
  *
  * FCFS takes the first due real-time task in queue order (eq. 1). Among the other tasks those are
  * eligible that are released and either fit the slack S, with the scheduler's guard W and the
@@ -29,7 +29,7 @@ KEEL_C_BEGIN
 /** The time of what never happens: a release when there is no task. */
 #define KEEL_TIME_NEVER_US UINT64_MAX
 
-/*@ // What scheduling says of the task in slot x.
+/*@ // The words of scheduling for the task in slot x.
   @ predicate released(keel_queue_t *q, integer x, integer now_us) = q->release_us[x] <= now_us;
   @
   @ // Eq. 3; a task's age counts from the release before the one to be served, on the grid.
@@ -141,14 +141,14 @@ static inline uint32_t keel_decision_room_us(uint64_t earliest_us, uint64_t now_
     return (room_us < UINT32_MAX) ? (uint32_t)room_us : UINT32_MAX;
 }
 
-/** Which of the tasks that are not real-time runs, and when the next of them is released. */
+/** The task that runs of those that are not real-time, and when the next of them is released. */
 typedef struct keel_choice {
     uint64_t earliest_us; /**< The earliest release of them all; KEEL_TIME_NEVER_US if none is. */
     uint32_t position;    /**< The chosen task's position in the order; 0 when there is none. */
     uint32_t priority;    /**< Its dynamic priority; 0: none is eligible. */
 } keel_choice_t;
 
-/*@ // What a choice at now_us is, by what each of the tasks was allowed then.
+/*@ // A choice at now_us follows from what each of the tasks was allowed then.
   @ predicate chosen(keel_queue_t *q, keel_choice_t c, integer now_us, integer room_us,
   @                  integer without) =
   @     q->realtime_count <= c.position < q->count &&

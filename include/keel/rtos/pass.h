@@ -83,7 +83,7 @@ void keel_any_body(void *context);
   @     s->clock.now_us + readings * KEEL_CLOCK_STEP_LIMIT_US <= KEEL_CLOCK_TIME_LIMIT_US;
   @*/
 
-/*@ // What beginning a step writes is the same in states L and M.
+/*@ // All that beginning a step writes is the same in states L and M.
   @ predicate begun_nothing{L, M}(keel_scheduler_t *s) =
   @     \at(s->clock.now_us, M) == \at(s->clock.now_us, L) &&
   @     \at(s->clock.raw_us, M) == \at(s->clock.raw_us, L) &&
@@ -441,7 +441,7 @@ keel_status_t keel_pass_run(keel_scheduler_t *scheduler);
   @ logic integer sleep_end(keel_scheduler_t *s) =
   @     \min(s->wake_us, s->clock.now_us + KEEL_CLOCK_STEP_LIMIT_US - 1);
   @
-  @ // What is left until then at a reading of the clock, behind the time that waking takes.
+  @ // The time left until then at a reading of the clock, behind the time that waking takes.
   @ logic integer sleep_left(keel_scheduler_t *s, integer raw_us, integer latency_us) =
   @     sleep_end(s) - s->clock.now_us - clock_elapsed(s->clock.raw_us, raw_us) - latency_us;
   @*/

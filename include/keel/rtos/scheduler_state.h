@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file scheduler_state.h
- * @brief What a scheduler keeps, and what holds of it: the logic that the proofs share.
+ * @brief The state of a scheduler, and its invariants: the logic that the proofs share.
  *
  * A reader of scheduler.h needs this file for two things: the fields, which may be read freely, and
  * the meaning of the words that the contracts there use.
@@ -99,7 +99,7 @@ typedef struct keel_task_report {
   @     KEEL_STAGE_SETUP <= s->stage <= KEEL_STAGE_OTHER &&
   @     (s->stage >= KEEL_STAGE_PASS ==> s->wake_us == 0);
   @
-  @ // What is remembered of the releases: bounds ...
+  @ // The bounds that are remembered of the releases ...
   @ predicate realtime_bound(keel_scheduler_t *s) =
   @     \forall integer i; 0 <= i < s->queue.realtime_count ==>
   @         s->earliest_realtime_us <= s->queue.release_us[s->queue.order[i]];
@@ -119,7 +119,7 @@ typedef struct keel_task_report {
   @     queue_others_last(&s->queue) && queue_periods(&s->queue) && queue_budgets(&s->queue) &&
   @     scheduler_state(s) && realtime_bound(s) && other_bound(s) && realtime_exact(s);
   @
-  @ // What keel_scheduler_init accepts besides a clock.
+  @ // keel_scheduler_init accepts this, besides a clock.
   @ predicate settings_valid(keel_scheduler_config_t *config) =
   @     config->guard_us < KEEL_PERIOD_LIMIT_US &&
   @     config->utilisation_limit_ppm <= KEEL_UTILISATION_FULL_PPM;
@@ -174,7 +174,7 @@ typedef struct keel_task_report {
   @     \at(s->queue.skipped[s->queue.order[i]], M) ==
   @         \at(s->queue.skipped[s->queue.order[i]], L);
   @
-  @ // What scheduling reads of the declarations, and of the configuration, is the same in states
+  @ // All that scheduling reads of declarations and configuration is the same in states
   @ // L and M.
   @ predicate declared_same{L, M}(keel_scheduler_t *s) =
   @     (\forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
@@ -214,7 +214,7 @@ typedef struct keel_task_report {
   @     s->clock.now_us < s->wake_us ==> wake_realtime(s) && wake_others(s);
   @*/
 
-/*@ // What refuses a set of tasks: a rule of admission.
+/*@ // A rule of admission refuses a set of tasks.
   @ predicate admission_status(integer status) = status == KEEL_ERR_REALTIME_DEMAND ||
   @     status == KEEL_ERR_BUDGET_GAP || status == KEEL_ERR_UTILISATION;
   @
@@ -222,7 +222,7 @@ typedef struct keel_task_report {
   @ predicate nothing_known(keel_scheduler_t *s) =
   @     s->wake_us == 0 && s->earliest_realtime_us == 0 && s->earliest_other_us == 0;
   @
-  @ // What starting writes is the same in states L and M.
+  @ // All that starting writes is the same in states L and M.
   @ predicate started_nothing{L, M}(keel_scheduler_t *s) =
   @     \at(s->stage, M) == \at(s->stage, L) &&
   @     \at(s->clock.now_us, M) == \at(s->clock.now_us, L) &&
@@ -242,7 +242,7 @@ typedef struct keel_task_report {
   @     \at(s->running, M) == ((i == \at(s->running, L)) ? KEEL_POSITION_NONE :
   @         \at(s->running, L) - ((i < \at(s->running, L)) ? 1 : 0));
   @
-  @ // What adding asks for besides admission.
+  @ // Adding asks for this, besides admission.
   @ predicate addable(keel_scheduler_t *s, keel_task_config_t *task) =
   @     config_valid(task) && !queue_holds(&s->queue, task) &&
   @     s->queue.count < KEEL_QUEUE_CAPACITY;

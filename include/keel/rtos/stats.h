@@ -63,7 +63,7 @@ typedef struct keel_stats {
   @ logic integer stats_worst(integer budget_us, integer remembered_us) =
   @     \max(budget_us, remembered_us);
   @
-  @ // What is remembered behind a run, and for how many runs within the budget.
+  @ // The time remembered behind a run, and for how many runs within the budget.
   @ logic integer remembered_after(integer elapsed_us, integer budget_us,
   @                                integer remembered_us, integer forgotten_in) =
   @     (elapsed_us > budget_us) ? \max(remembered_us, elapsed_us)

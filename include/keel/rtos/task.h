@@ -40,7 +40,7 @@ typedef struct keel_task_config {
   @     config->run != \null && period_valid(config->period_us) && 0 < config->budget_us &&
   @     config->phase_us < config->period_us && priority_valid(config->priority);
   @
-  @ // What is wrong with a declaration that has a body: the first that applies.
+  @ // A declaration that has a body is refused for the first of these that applies.
   @ predicate config_refused(keel_task_config_t *config, integer status) =
   @     (status == KEEL_ERR_PERIOD && !period_valid(config->period_us)) ||
   @     (status == KEEL_ERR_PHASE && period_valid(config->period_us) &&

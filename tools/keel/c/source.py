@@ -62,6 +62,22 @@ def comments(text: str) -> list[str]:
 
 
 @lru_cache(maxsize=1024)
+def without_prose(text: str) -> str:
+    """The text with nothing in its comments but what provers read, each line in its place."""
+
+    def replace(match: re.Match[str]) -> str:
+        comment = match.group("comment")
+        if comment is None:
+            return match.group()
+        if comment[2:3] == "@":
+            return comment[:3] + re.sub(r"//[^\n]*", "", comment[3:])
+        return " " + "\n" * comment.count("\n")
+
+    bare = TOKEN.sub(replace, text)
+    return "\n".join(line.rstrip() for line in bare.splitlines())
+
+
+@lru_cache(maxsize=1024)
 def essence(text: str) -> str:
     """The text without comments and blank lines: what a compiler sees of it, places aside."""
     bare = TOKEN.sub(lambda match: " " if match.group("comment") else match.group(), text)

@@ -51,7 +51,8 @@ ASSERTIONS = ("--no-standard-checks", "--unwinding-assertions", "--drop-unused-f
 # z3 gains nothing.
 SLICE = "--slice-formula"
 # The coverage run asks what can be reached at all. CBMC takes assertions for assumptions there.
-COVERAGE = ("--cover", "location", "--no-standard-checks", "--drop-unused-functions", SLICE)
+COVER = ("--cover", "location", "--no-standard-checks", "--drop-unused-functions")
+COVERAGE = (*COVER, SLICE)
 
 
 @dataclass

@@ -20,10 +20,8 @@ from pathlib import Path
 from keel.base.jobs import Runner
 from keel.c.project import include_options
 from keel.engines.frama_modules import Modules
-from keel.install.prover_limits import SMOKE_SECONDS
-from keel.install.provers import CLOCK_PER_PROCESSOR
-from keel.judge import wp_frames as frames
-from keel.judge import wp_log as wplog
+from keel.install.provers import CLOCK_PER_PROCESSOR, SMOKE_SECONDS
+from keel.judge import wp_frames, wp_log
 from keel.judge.goals import PRUNED, QED
 from keel.judge.wp_targets import Result, Target, dependencies
 from keel.judge.wp_verdict import judge, loop_problems, message_problems
@@ -99,7 +97,7 @@ RECORDED = Stage((), 100)
 # wherever with 3000. Debian's CVC4 is built without floats: it gives up on the first literal of
 # one, and WP takes that for a test that was passed. WP proves calls through pointers once more in
 # this pass, which takes 56 000 steps. Steps count alike on every machine; what has steps left ends
-# by the processor's time (toolchain/limits.py).
+# by the processor's time (install/provers.py).
 SMOKE = Stage(("cvc4",), SMOKE_SECONDS, steps=60_000)
 SMOKE_OF_FLOATS = Stage(("alt-ergo",), SMOKE_SECONDS, steps=300)
 FLOATS = re.compile(r"\b(?:float|double)\b")
@@ -147,10 +145,10 @@ class Wp:
         loading = ["-no-autoload-plugins", "-load-module", modules]
         return [*options[:place], *loading, *options[place + 2 :]]
 
-    def survey(self, file: Path) -> wplog.Log:
+    def survey(self, file: Path) -> wp_log.Log:
         """Parse a file and learn what it defines, includes and all, and what it assumes."""
         command = [*self._loaded("find_assumptions.ml"), self._shown(file), "-rte"]
-        return wplog.read_log(self._runner.run(command).output)
+        return wp_log.read_log(self._runner.run(command).output)
 
     def prove(
         self,
@@ -219,7 +217,7 @@ class Wp:
         """What find_contradictions.ml is told."""
         stage = smoke_stage(target, self._root)
         words = [*stage.provers, str(stage.steps), str(target.function)]
-        return " ".join([*words, *frames.not_left(target.left)])
+        return " ".join([*words, *wp_frames.not_left(target.left)])
 
     def _report_of(self, target: Target) -> Path:
         """Where WP is to write its report; none is there yet."""
@@ -257,7 +255,7 @@ class Wp:
             return None
         lines = [f"{goal} {asked[0] if name == QED else name}" for goal, name in own.items()]
         file = self._scratch / f"{target.identity}.recorded"
-        selected = " ".join([target.function, *frames.not_left(target.left)])
+        selected = " ".join([target.function, *wp_frames.not_left(target.left)])
         file.write_text("\n".join([selected, *lines]) + "\n", encoding="utf-8")
         return file
 
@@ -268,13 +266,13 @@ class Wp:
 
         def enough(line: str) -> bool:
             nonlocal passes
-            passes += line.startswith(wplog.PASS)
-            goal = wplog.GOAL.match(line)
+            passes += line.startswith(wp_log.PASS)
+            goal = wp_log.GOAL.match(line)
             return passes == len(stages) and goal is not None and goal["status"] != "Valid"
 
         output = self._runner.run_until(self.command(target, stages, False, report), enough)
         self._drop_failures(target)
-        log = wplog.read_log(output)
+        log = wp_log.read_log(output)
         if not log.goals:
             return "WP has no goal"
         problems = [goal.name for goal in log.goals.values() if not goal.proved]
@@ -375,7 +373,7 @@ class Wp:
 def _scripts_pass(target: Target, room: int) -> list[str]:
     """The options of the pass in which our scripts have goals tried that they choose."""
     options = ["-rte", "-rte-select", str(target.function), "-wp-rte"]
-    options += frames.NO_FLOATS if target.left is not None else ()
+    options += wp_frames.NO_FLOATS if target.left is not None else ()
     options += ["-wp-par", "2", *RECORDED.with_room(room).options(())]
     options += ["-wp-smoke-timeout", str(SMOKE_SECONDS * CLOCK_PER_PROCESSOR)]
     return [*options, "-then", "-no-rte"]

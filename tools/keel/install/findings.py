@@ -16,8 +16,7 @@ from keel.base.files import write_text
 from keel.install.found import Found, path_outside
 from keel.install.groups import TOOLS_DIR
 from keel.install.lock import Lock, Spec
-from keel.install.prover_scripts import script_of
-from keel.install.provers import MACHDEP_FILE
+from keel.install.provers import MACHDEP_FILE, by_processor_time
 
 
 class Findings:
@@ -53,7 +52,7 @@ class Findings:
 
         Clones that start them differently have one each.
         """
-        chosen = script_of("")
+        chosen = by_processor_time("")
         for name in (*(prover.lower() for prover in spec.provers), "why3"):
             finding = self.get(self.lock.tools[name])
             if not finding:

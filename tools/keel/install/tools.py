@@ -16,7 +16,6 @@ from keel.install.cache import Cache, Say, default_cache
 from keel.install.findings import Findings
 from keel.install.found import Finder, Found, answer, found
 from keel.install.lock import Lock, Spec, ToolchainError
-from keel.install.prover_scripts import script_of
 from keel.install.unpack import Tree, unpack_crate, unpack_deb, unpack_source
 
 
@@ -206,7 +205,7 @@ class Toolchain:
 
         def started(match: re.Match[str]) -> str:
             script = folder / f"{Path(match['program']).name}-by-processor-time"
-            write_text(script, script_of(match["program"]))
+            write_text(script, provers.by_processor_time(match["program"]))
             script.chmod(0o755)
             return f'path = "{script}"'
 

@@ -11,7 +11,7 @@ from typing import Any
 from keel.base.files import write_text
 from keel.c import source as csource
 from keel.c.project import Unit, closure, shown
-from keel.judge import wp_frames as frames
+from keel.judge import wp_frames
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Target:
     def selection(self) -> list[str]:
         """The options that select these goals and no others."""
         if self.function:
-            return ["-wp-fct", self.function, *frames.selection(self.left)]
+            return ["-wp-fct", self.function, *wp_frames.selection(self.left)]
         return ["-wp-prop", ",".join(self.lemmas)]
 
 

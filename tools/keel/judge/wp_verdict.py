@@ -10,8 +10,7 @@ from pathlib import Path
 
 from keel.c import source as csource
 from keel.c.project import shown
-from keel.judge import goals
-from keel.judge import wp_log as wplog
+from keel.judge import goals, wp_log
 from keel.judge.wp_targets import Result, Target
 
 VARIANT = re.compile(r"(.*_loop_variant(?:_\d+)?_decrease)(?:_part\d+)?$")
@@ -40,7 +39,7 @@ def judge(
 
     `pruned` are the passes that search for branches that cannot be taken.
     """
-    log = wplog.read_log(output)
+    log = wp_log.read_log(output)
     result = Result(smoke=sum(log.smoke.values()))
     result.goals = [
         {"name": goal.name, "status": goal.status, "prover": goal.prover}
@@ -60,7 +59,7 @@ def judge(
     return result
 
 
-def _stale(log: wplog.Log, recorded: Mapping[str, str]) -> list[str]:
+def _stale(log: wp_log.Log, recorded: Mapping[str, str]) -> list[str]:
     """The goals that their recorded prover did not prove, and who did. Qed is asked in any case."""
     found = []
     for goal in log.goals.values():
@@ -70,7 +69,7 @@ def _stale(log: wplog.Log, recorded: Mapping[str, str]) -> list[str]:
     return found
 
 
-def survey_problems(log: wplog.Log, file: str, proved: Collection[str]) -> list[str]:
+def survey_problems(log: wp_log.Log, file: str, proved: Collection[str]) -> list[str]:
     """What is wrong with a file as Frama-C sees it; `proved` are the functions proved anywhere.
 
     Its annotations are read behind the preprocessor, which may have made them of anything.
@@ -95,15 +94,15 @@ def survey_problems(log: wplog.Log, file: str, proved: Collection[str]) -> list[
     ]
 
 
-def _structure(target: Target, log: wplog.Log, report: str, output: str) -> list[str]:
+def _structure(target: Target, log: wp_log.Log, report: str, output: str) -> list[str]:
     """What is wrong with the run as such."""
     try:
-        totals = wplog.read_report(json.loads(report))
+        totals = wp_log.read_report(json.loads(report))
     except (ValueError, AttributeError):
         tail = " | ".join(output.strip().splitlines()[-3:])
         return [f"{target.name}: WP wrote no report; it ended with: {tail}"]
     problems = []
-    if difference := wplog.disagreement(log, totals):
+    if difference := wp_log.disagreement(log, totals):
         problems.append(f"{target.name}: do not trust this run, WP's {difference}")
     if not log.goals:
         problems.append(f"{target.name}: WP has no goal for it")
@@ -112,7 +111,7 @@ def _structure(target: Target, log: wplog.Log, report: str, output: str) -> list
     return problems
 
 
-def message_problems(log: wplog.Log, allowed: Sequence[str], used: list[str]) -> list[str]:
+def message_problems(log: wp_log.Log, allowed: Sequence[str], used: list[str]) -> list[str]:
     """Warnings that nobody has declared harmless: each may be a hole in the proof."""
     problems = []
     for message in log.messages:
@@ -126,7 +125,7 @@ def message_problems(log: wplog.Log, allowed: Sequence[str], used: list[str]) ->
     return list(dict.fromkeys(problems))
 
 
-def _unproved(target: Target, log: wplog.Log, root: Path) -> list[str]:
+def _unproved(target: Target, log: wp_log.Log, root: Path) -> list[str]:
     """The goals that no prover proved, and the smoke tests that failed."""
     problems = []
     for goal in log.goals.values():
@@ -142,7 +141,7 @@ def _unproved(target: Target, log: wplog.Log, root: Path) -> list[str]:
     return problems
 
 
-def loop_problems(target: Target, log: wplog.Log) -> list[str]:
+def loop_problems(target: Target, log: wp_log.Log) -> list[str]:
     """Every loop needs a variant, or the proof says nothing about its end."""
     if not target.function:
         return []

@@ -109,7 +109,7 @@ class WrongBody:
 def read_wrong_bodies(unit: Unit) -> list[WrongBody]:
     """The wrong bodies of a unit, in the order of its file.
 
-    What is missing, unknown, there twice or of the wrong kind is an error.
+    A key that is missing, unknown, there twice or of the wrong kind is an error.
     """
     _refuse_files(unit)
     return _read(unit) if unit.wrong_list.is_file() else []

@@ -11,7 +11,6 @@ commit could follow. `proofs.mutant_table` keeps the results.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -22,8 +21,6 @@ from keel.install import Found
 from keel.judge.goals import read_goals
 from keel.judge.harness import Harness, read_harness
 
-# How a comment begins that a prover reads.
-CONTRACTS = ("/*@", "//@")
 # These judge no mutant; the last says where provers lie.
 NO_JUDGES = ("gcc", "newlib", "ocamlfind", "why3-config")
 
@@ -63,7 +60,9 @@ def origin(
     texts = {path: path.read_text(encoding="utf-8") for path in (*source, *apart)}
     equivalent = unit.folder / "equivalent.toml"
     return {
-        "source": digest({_shown(path, root): _without_prose(texts[path]) for path in source}),
+        "source": digest(
+            {_shown(path, root): csource.without_prose(texts[path]) for path in source}
+        ),
         "proofs": digest(
             {
                 "texts": {_shown(path, root): csource.essence(texts[path]) for path in apart},
@@ -78,19 +77,6 @@ def origin(
         ),
         **{name: version_of(tool) for name, tool in tools.items() if name not in NO_JUDGES},
     }
-
-
-def _without_prose(text: str) -> str:
-    """The text with nothing in its comments but contracts, and each line in its place."""
-
-    def replace(match: re.Match[str]) -> str:
-        comment = match.group("comment")
-        if comment is None or comment.startswith(CONTRACTS):
-            return match.group()
-        return " " + "\n" * comment.count("\n")
-
-    bare = csource.TOKEN.sub(replace, text)
-    return "\n".join(line.rstrip() for line in bare.splitlines())
 
 
 def version_of(tool: Found) -> str:

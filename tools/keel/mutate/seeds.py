@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.jobs import Runner
-from keel.engines.cbmc import Cbmc, blocks_of
+from keel.engines.cbmc import COVER, Cbmc, blocks_of
 from keel.judge.harness import Harness, without_solver
 
 DRAWS = 1024  # of an execution: what is drawn after so many values is not known of it
@@ -25,12 +25,9 @@ SECONDS = 100  # of processor time for one harness
 LITERAL = 0xFF
 SLOT = (1 << 64) - 1
 TABLE = "keel_run_seed"
-COVER = (
-    "--cover",
-    "location",
+INPUTS = (
+    *COVER,
     "--show-test-suite",
-    "--no-standard-checks",
-    "--drop-unused-functions",
     "--max-field-sensitivity-array-size",  # each value by itself, not as a part of an array
     str(DRAWS),
 )
@@ -104,7 +101,7 @@ class Seeds:
         binary, complaint = self.checker.build(alone, f"{harness.name}-seed")
         if complaint:
             return []
-        command = [*self.command, str(binary), "--json-ui", *COVER, *options]
+        command = [*self.command, str(binary), "--json-ui", *INPUTS, *options]
         listing = self.runner.run([*command, "--show-properties"], alone.timeout, merged=False)
         wanted = blocks_of(listing.output, {f"{harness.name}_body", *harness.covers})
         answer = self.runner.run([*command, *wanted], alone.timeout, merged=False)

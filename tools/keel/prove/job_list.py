@@ -71,7 +71,7 @@ def wp_key(
     stamp: Mapping[str, str],
     allowed: Sequence[str],
 ) -> str:
-    """What the verdict on a function, or on lemmas, depends on."""
+    """What the verdict on a function, or on lemmas, depends on: no comment that is prose."""
     return digest(
         {
             "kind": "wp",
@@ -79,7 +79,10 @@ def wp_key(
             "options": placeless(prover.options(), root),
             "selection": target.selection,
             "allowed": list(allowed),
-            "text": wp_targets.dependencies(target, root),
+            "text": {
+                place: csource.without_prose(text)
+                for place, text in wp_targets.dependencies(target, root).items()
+            },
             "file": target.file.name,
         }
     )
@@ -107,7 +110,9 @@ def survey_jobs(
 
             def key(file: Path = file) -> str:
                 files = closure(root, [file])
-                text = {shown(path, root): path.read_text("utf-8") for path in files}
+                text = {
+                    shown(path, root): csource.without_prose(csource.read(path)) for path in files
+                }
                 return digest({"survey": text, "stamp": dict(stamp), "known": sorted(elsewhere)})
 
             theorem = f"{file.stem}:" if file in unit.theorems else ""

@@ -31,7 +31,6 @@ ASKERS = {
         "engines/find_contradictions.ml",
         "engines/find_assumptions.ml",
         "engines/linear_filter.py",
-        "install/prover_limits.py",
     ),
     "cbmc": ("engines/cbmc.py", "engines/cbmc_build.py"),
     "gappa": ("engines/gappa.py",),
