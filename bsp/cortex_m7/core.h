@@ -44,7 +44,6 @@ typedef struct keel_scb {
 #define SCB_AIRCR_KEY            0x05FAu /* What must be written to VECTKEYSTAT. */
 #define SCB_ICSR_PENDSTCLR       BITS(25u, 1u)
 #define SCB_ICSR_PENDSTSET       BITS(26u, 1u)
-#define SCB_SCR_SEVONPEND        BITS(4u, 1u)
 #define SCB_CCR_DIV_0_TRP        BITS(4u, 1u)
 #define SCB_CCR_STKALIGN         BITS(9u, 1u)
 #define SCB_CCR_DC               BITS(16u, 1u)

@@ -25,13 +25,16 @@ void keel_core_sleep_us(uint32_t us, uint32_t core_mhz)
         return;
     }
     __asm volatile("cpsid i" ::: "memory");
-    SCB->SCR |= SCB_SCR_SEVONPEND; /* What becomes pending ends a wait, masked or not. */
     SYSTICK->LOAD = (sleep_us * core_mhz) - 1u;
     SYSTICK->VAL = 0u;
     SYSTICK->CTRL = CTRL_ON;
-    /* An event of before ends a wait, too. */
+    while (SYSTICK->VAL == 0u) {
+        /* The counter takes LOAD with its next clock. */
+    }
+    SYSTICK->LOAD = 0u; /* It counts once: at its end it stops (B3.3.1). */
+    /* What becomes pending ends a wait, masked or not (B1.5.19); other causes may, too. */
     while ((SCB->ICSR & SCB_ICSR_PENDSTSET) == 0u) {
-        __asm volatile("dsb\n\twfe" ::: "memory");
+        __asm volatile("dsb\n\twfi" ::: "memory");
     }
     SYSTICK->CTRL = 0u;
     SCB->ICSR = SCB_ICSR_PENDSTCLR;

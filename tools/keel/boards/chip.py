@@ -302,6 +302,7 @@ class Chip:
         """Whoever starts it sleeps until its end, which is at once: the time has gone by."""
         if offset == 0 and value & 1:
             self.tick((self.words[SYSTICK + 4] + 1) // CORE_MHZ)
+            self.words[SYSTICK + 8] = self.words[SYSTICK + 4]  # It counts anew.
             self.words[SCB + 4] = 1 << 26  # PENDSTSET.
 
     def _follow(self, word: int, control: int, flag: int, broken: bool) -> int:

@@ -338,10 +338,9 @@ def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
 # --- All of them ---------------------------------------------------------------------------------
 
 # In seconds, alone; of the others none takes two. They begin, so that none is left at the end.
-# Those of demo and copter are estimates: QEMU takes WFE for a hint, and spins through every sleep.
 LONG_S = {
-    "demo": 400.0,
-    "copter": 300.0,
+    "demo": 40.0,
+    "copter": 20.0,
     "differential": 20.0,
     "unit/specified": 10.0,
     "unit/mixer_specified": 10.0,
