@@ -233,12 +233,14 @@ class ProseTest(unittest.TestCase):
             [],
         )
 
-    def test_comments_of_the_kernel_are_prose_and_contracts_are_not(self) -> None:
+    def test_comments_of_the_kernel_are_prose_and_clauses_are_not(self) -> None:
         path = "include/keel/rtos/a.h"
         self.assertEqual(
             self.lines_of(
                 path,
                 "/*@ // What a step keeps.",
+                "  @ predicate What(integer a) = a > 0; // The words go on here. Who",
+                "  @ // has it? Nobody.",
                 "  @*/",
                 "int a; /**< What it is. */",
                 "/**",
@@ -252,7 +254,7 @@ class ProseTest(unittest.TestCase):
                 "/* Whether it is. What",
                 " * is next? */",
             ),
-            [3, 5, 10],
+            [1, 5, 7, 12],
         )
         self.assertEqual(self.lines_of("tests/unit/a.c", "/* What it is. */"), [])
 

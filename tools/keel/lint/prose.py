@@ -40,16 +40,24 @@ def blank(match: re.Match[str]) -> str:
     return "\n" * match[0].count("\n") or " "
 
 
+def in_contract(contract: str) -> str:
+    """The comments in a contract, each on its line."""
+    return "\n".join(line.partition("//")[2] or BREAK for line in contract[3:].split("\n"))
+
+
 def prose_of(text: Text) -> str:
-    """A document without code, headings and addresses; a source's comments without contracts."""
+    """A document without code, headings and addresses; a source's comments, also in contracts."""
     whole = "\n".join(text.lines)
     if not text.is_kernel:
         return HIDDEN.sub(blank, whole).replace("|", BREAK)
     prose, last = "", 0
     for match in COMMENT.finditer(whole):
-        if not match[0].startswith(("/*@", "//@", '"')):
-            lines = "\n" * whole.count("\n", last, match.start())
-            prose, last = prose + lines + MARGIN.sub("", match[0]) + BREAK, match.end()
+        if match[0].startswith('"'):
+            continue
+        is_contract = match[0][2:3] == "@"
+        words = in_contract(match[0]) if is_contract else MARGIN.sub("", match[0])
+        lines = "\n" * whole.count("\n", last, match.start())
+        prose, last = prose + lines + words + BREAK, match.end()
     return prose
 
 
