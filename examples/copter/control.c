@@ -209,8 +209,10 @@ void copter_angle_control(copter_t *copter)
 {
     keel_cascade_t *const cascade = &copter->control.cascade;
     const keel_reference_setpoints_t *const pilot = &copter->pilot.reference.setpoints;
-    const keel_cascade_tilt_t sticks = {.roll = pilot->roll, .pitch = pilot->pitch};
+    keel_cascade_tilt_t sticks;
 
+    copter_pilot_smooth(&copter->pilot);
+    sticks = (keel_cascade_tilt_t){.roll = pilot->roll, .pitch = pilot->pitch};
     keel_cascade_angle_step(cascade, sticks_tilt(copter) ? sticks : cascade->tilt, copter->imu.down,
                             copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING);
 }
@@ -258,7 +260,7 @@ static keel_cascade_rates_t rates_of(const copter_t *copter)
         }
     }
     if (sticks_thrust(copter)) {
-        asked.thrust = thrust_of(copter->pilot.sticks.climb);
+        asked.thrust = thrust_of(copter->pilot.smooth.climb);
     } else {
         asked.thrust = tilted(sinks_blindly(copter) ? copter->control.sink : cascade->thrust,
                               &copter->imu);

@@ -144,7 +144,7 @@ keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own)
     return add(copter, own->body, own->wcet_us);
 }
 
-/* Neither the cascade, nor the mixer, nor the sticks' curves remember anything between flights, and
+/* Neither the cascade, nor the mixer, nor the sticks remember anything between flights, and
  * what a calibration has found is in the parameters a few runs of telemetry later.
  * All take their settings: the check of the parameters has asked them. */
 void copter_retune(copter_t *copter)
@@ -152,7 +152,7 @@ void copter_retune(copter_t *copter)
     if (copter_parameter_store_apply(&copter->parameters)) {
         (void)copter_control_init(&copter->control);
         copter_calibration_set(&copter->calibration);
-        (void)keel_reference_init(&copter->pilot.reference, &copter_settings.reference);
+        (void)copter_pilot_tune(&copter->pilot);
     }
 }
 

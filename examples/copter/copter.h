@@ -224,14 +224,19 @@ typedef struct copter_pilot_ear {
     uint8_t heard;                     /**< What was heard in it: copter_heard_t. */
 } copter_pilot_ear_t;
 
-/** Written by background and foreground radio. */
+/** Sticks: roll, pitch, yaw and climb. */
+#define COPTER_STICKS 4u
+
+/** Written by background and foreground radio; angle control writes what the sticks ask for. */
 typedef struct copter_pilot {
     copter_rc_t rc;
-    uint32_t frames;        /**< How many frames the pilot sent, and are in what follows. */
-    uint32_t read;          /**< Of rc.frames, the last one looked at. */
-    copter_pilot_ear_t ear; /**< What was there a second ago. */
-    keel_reference_sticks_t sticks;
-    keel_reference_t reference; /**< What the sticks ask for. */
+    uint32_t frames;                /**< How many frames the pilot sent, and are in what follows. */
+    uint32_t read;                  /**< Of rc.frames, the last one looked at. */
+    copter_pilot_ear_t ear;         /**< What was there a second ago. */
+    keel_reference_sticks_t sticks; /**< As the last frame has them. */
+    keel_filter_t smoother[COPTER_STICKS]; /**< They follow it smoothly. */
+    keel_reference_sticks_t smooth;
+    keel_reference_t reference; /**< The smooth sticks ask for this. */
     uint32_t facts;             /**< KEEL_MODE_RC_LINKED, ... of the pilot's last frame. */
     bool calibrates;            /**< It asks for a calibration of the magnetometer. */
     uint8_t asked;              /**< The mode that it asks for. */
@@ -479,6 +484,10 @@ void copter_date_read(copter_date_t *date, uint64_t now_us);
 uint64_t copter_utc_us(const copter_date_t *date, uint64_t now_us);
 
 keel_status_t copter_pilot_init(copter_pilot_t *pilot);
+/** The sticks' curves and low-passes take their settings; the sticks rest until the next step. */
+keel_status_t copter_pilot_tune(copter_pilot_t *pilot);
+/** A step of the sticks' low-passes and of what they ask for; at COPTER_CONTROL_HZ. */
+void copter_pilot_smooth(copter_pilot_t *pilot);
 void copter_background_radio(copter_t *copter);
 void copter_foreground_radio(copter_t *copter);
 

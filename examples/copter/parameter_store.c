@@ -16,6 +16,7 @@ typedef struct units {
     keel_virtual_imu_t slow;
     keel_filter_t force;
     keel_filter_t rate;
+    keel_filter_t stick;
     keel_calibration_rest_t gyroscope;
     keel_calibration_field_t field;
     keel_attitude_t attitude;
@@ -53,6 +54,7 @@ static keel_status_t try_units(const copter_settings_t *tried)
         keel_altitude_init(&unit.altitude, &tried->altitude),
         keel_position_init(&unit.position, &tried->position),
         keel_reference_init(&unit.reference, &tried->reference),
+        keel_filter_init(&unit.stick, COPTER_CONTROL_HZ, tried->stick_hz),
         keel_battery_init(&unit.battery, &tried->battery),
         keel_mode_init(&unit.mode, &tried->mode),
         keel_cascade_init(&unit.cascade, &tried->cascade),

@@ -34,8 +34,17 @@ keel_status_t copter_pilot_init(copter_pilot_t *pilot)
     const keel_status_t status = copter_rc_init(&pilot->rc, &copter_settings.rc);
 
     pilot->asked = KEEL_MODE_NONE;
-    return (status == KEEL_OK) ? keel_reference_init(&pilot->reference, &copter_settings.reference)
-                               : status;
+    return (status == KEEL_OK) ? copter_pilot_tune(pilot) : status;
+}
+
+keel_status_t copter_pilot_tune(copter_pilot_t *pilot)
+{
+    keel_status_t status = keel_reference_init(&pilot->reference, &copter_settings.reference);
+
+    for (uint32_t i = 0u; (i < COPTER_STICKS) && (status == KEEL_OK); i++) {
+        status = keel_filter_init(&pilot->smoother[i], COPTER_CONTROL_HZ, copter_settings.stick_hz);
+    }
+    return status;
 }
 
 /* Whether a run that began then takes another byte. Noise can make one of CRSF cost as much as a
@@ -60,14 +69,37 @@ void copter_background_radio(copter_t *copter)
 }
 
 /* A stick, from -1 to 1. */
-static float stick_of(uint16_t channel)
+static float within(float stick)
 {
-    const float stick = (float)((int32_t)channel - MIDDLE) / WAY;
-
     if (stick < -1.0f) {
         return -1.0f;
     }
     return (stick > 1.0f) ? 1.0f : stick;
+}
+
+static float stick_of(uint16_t channel)
+{
+    return within((float)((int32_t)channel - MIDDLE) / WAY);
+}
+
+/* A stick behind its low-pass, which goes beyond a stair by 4 % for a moment. */
+static float smoothed(keel_filter_t *smoother, float stick)
+{
+    (void)keel_filter_step(smoother, stick);
+    return within(smoother->output);
+}
+
+/* A receiver tells the sticks some 50 times a second. Ten steps of control would ask for the same
+ * then, and the eleventh for a jump, whose derivative kicks. */
+void copter_pilot_smooth(copter_pilot_t *pilot)
+{
+    const keel_reference_sticks_t *const said = &pilot->sticks;
+
+    pilot->smooth = (keel_reference_sticks_t){.roll = smoothed(&pilot->smoother[0], said->roll),
+                                              .pitch = smoothed(&pilot->smoother[1], said->pitch),
+                                              .yaw = smoothed(&pilot->smoother[2], said->yaw),
+                                              .climb = smoothed(&pilot->smoother[3], said->climb)};
+    (void)keel_reference_step(&pilot->reference, &pilot->smooth);
 }
 
 /* A position beyond an end counts as the end. */
@@ -142,7 +174,6 @@ static void obey(copter_pilot_t *self)
                                              .pitch = stick_of(channel[PITCH]),
                                              .yaw = stick_of(channel[YAW]),
                                              .climb = stick_of(channel[THROTTLE])};
-    (void)keel_reference_step(&self->reference, &self->sticks);
     self->facts = facts_of(channel);
     self->asked = mode_of(channel[MODE]);
     self->calibrates = channel[CALIBRATE] > ON;

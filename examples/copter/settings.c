@@ -4,8 +4,8 @@
  * 490 rad/s^2, of yaw with about 44 rad/s^2, and a unit of thrust lifts it with about 40 m/s^2. */
 #include "settings.h"
 
-#define CONTROL_HZ    500.0f /* Table 2: angle rate control and angle control. */
-#define POSITION_HZ   100.0f /* Position control. */
+#define CONTROL_HZ    COPTER_CONTROL_HZ /* And angle rate control. */
+#define POSITION_HZ   100.0f            /* Position control. */
 #define NAVIGATION_HZ 50.0f
 
 #define HOVER 0.37f
@@ -133,6 +133,7 @@ const copter_settings_t copter_defaults = {
                              .speed = 5.0f,
                              .climb_rate = 2.0f,
                              .descent_rate = 1.0f}},
+    .stick_hz = 15.0f, /* 15 ms later, and not a tenth is left of stairs 50 times a second. */
     .battery = {.capacity_ah = 5.0f,
                 .initial = 1.0f,
                 .resistance_ohm = 0.02f,

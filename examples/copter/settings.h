@@ -27,6 +27,9 @@
 /** How often units vote, in Hz: table 2, foreground IMU. */
 #define COPTER_VOTE_HZ 500.0f
 
+/** How often the sticks are smoothed, in Hz: table 2, angle control. */
+#define COPTER_CONTROL_HZ 500.0f
+
 /** All that a unit is made from, and what the tasks decide by. */
 typedef struct copter_settings {
     keel_virtual_imu_config_t imu;
@@ -48,6 +51,7 @@ typedef struct copter_settings {
     copter_rc_config_t rc;
     keel_ubx_config_t gps;
     keel_reference_config_t reference;
+    float stick_hz; /**< The cut-off of the sticks' low-pass, in Hz. */
     keel_battery_config_t battery;
     keel_mode_config_t mode;
     keel_cascade_config_t cascade;

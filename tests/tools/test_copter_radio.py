@@ -77,6 +77,9 @@ int protocol(void) { return copter.pilot.rc.protocol; }
 int frames(void) { return (int)copter.pilot.frames; }
 int channel(int i) { return copter.pilot.rc.channel[i]; }
 double roll(void) { return copter.pilot.sticks.roll; }
+void push(double roll) { copter.pilot.sticks.roll = (float)roll; }
+double smooth(void) { copter_pilot_smooth(&copter.pilot); return copter.pilot.smooth.roll; }
+double rate(void) { return copter.pilot.reference.setpoints.roll_rate; }
 int asked(void) { return copter.pilot.asked; }
 int last_mode(void) { return KEEL_MODE_NONE - 1; }
 const char *words(void)
@@ -250,6 +253,26 @@ class CopterRadio(unittest.TestCase):
                 self.assertEqual(self.copter.protocol(), protocol)
                 frames = len(line.sent) // len(corpus(name))
                 self.assertEqual(self.copter.heard(), frames - (enough - 1))
+
+    def test_a_stair_of_the_sticks_becomes_smooth(self) -> None:
+        """A Butterworth low-pass of two poles answers a stair by a slope of at most w exp(-pi/4)
+        sin(pi/4) sqrt(2), w = 2 pi 15 Hz, which is 42.98 a second; its way back is as smooth."""
+        self.start(SBUS)
+        self.copter.smooth.restype = self.copter.rate.restype = ctypes.c_double
+        steepest = 42.98 * 0.002
+        at = 0.0
+        for stick, asked in ((1.0, 5.0), (0.0, 0.0)):
+            self.copter.push(ctypes.c_double(stick))
+            steps = []
+            for _ in range(100):
+                before, at = at, self.copter.smooth()
+                self.assertLessEqual(abs(at), 1.0)
+                steps.append(abs(at - before))
+            self.assertLess(max(steps), 1.01 * steepest)
+            self.assertGreater(max(steps), 0.95 * steepest)
+            self.assertAlmostEqual(at, stick, 4)
+            self.assertAlmostEqual(self.copter.rate(), asked, 2)
+        self.assertEqual(self.copter.rate(), 0.0)
 
     def test_when_ppm_is_found(self) -> None:
         """The first train's beginning is unknown, three are asked for in a row, and five of that:
