@@ -16,17 +16,18 @@
 
 static void begin(copter_accel_calibration_t *self)
 {
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         keel_calibration_rest_begin(&self->rest[unit]);
     }
     self->side = (uint8_t)KEEL_CALIBRATION_SIDES;
 }
 
-keel_status_t copter_accel_calibration_init(copter_accel_calibration_t *self)
+keel_status_t copter_accel_calibration_init(copter_accel_calibration_t *self, uint32_t units)
 {
     keel_status_t status = KEEL_OK;
 
-    for (uint32_t unit = 0u; (unit < COPTER_IMUS) && (status == KEEL_OK); unit++) {
+    self->units = units;
+    for (uint32_t unit = 0u; (unit < units) && (status == KEEL_OK); unit++) {
         status = keel_calibration_rest_init(&self->rest[unit], &copter_settings.side);
         self->sides[unit] = (keel_calibration_sides_t){.gravity = GRAVITY, .limit = OFFSET_MOST};
     }
@@ -84,7 +85,7 @@ void copter_accel_calibration_set(copter_accel_calibration_t *self)
     self->turn = then(&self->board, &trimmed);
     self->is_turned = !(is_none(board[0]) && is_none(board[1]) && is_none(board[2]) &&
                         is_none(trim[0]) && is_none(trim[1]));
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         self->correction[unit] = copter_settings.correction[unit];
     }
 }
@@ -110,7 +111,7 @@ void copter_accel_calibration_ask(copter_accel_calibration_t *self, uint8_t leve
 
 static void step_rests(copter_t *copter)
 {
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < copter->calibration.units; unit++) {
         const keel_virtual_imu_sample_t *const sample = &copter->imu.unit[unit];
 
         if (sample->present) {
@@ -126,7 +127,7 @@ static bool have_rested(copter_accel_calibration_t *self, uint32_t count)
     bool rest = true;
     bool moves = false;
 
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         rest = rest && (self->rest[unit].count >= count);
         moves = moves || copter_has_moved(&self->rest[unit]);
     }
@@ -144,7 +145,7 @@ static uint8_t side_of(const copter_accel_calibration_t *self, bool by_means)
                                                 SIDE_LEAST, SIDE_MOST);
     bool alike = true;
 
-    for (uint32_t unit = 1u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 1u; unit < self->units; unit++) {
         const float *const said = by_means ? rest[unit].offset : rest[unit].first;
 
         alike = alike && (keel_calibration_side(said, SIDE_LEAST, SIDE_MOST) == side);
@@ -169,10 +170,10 @@ static void finish_sides(copter_accel_calibration_t *self)
     keel_calibration_correction_t found[COPTER_IMUS];
     keel_status_t status = KEEL_OK;
 
-    for (uint32_t unit = 0u; (unit < COPTER_IMUS) && (status == KEEL_OK); unit++) {
+    for (uint32_t unit = 0u; (unit < self->units) && (status == KEEL_OK); unit++) {
         status = keel_calibration_six(&self->sides[unit], &found[unit]);
     }
-    for (uint32_t unit = 0u; (unit < COPTER_IMUS) && (status == KEEL_OK); unit++) {
+    for (uint32_t unit = 0u; (unit < self->units) && (status == KEEL_OK); unit++) {
         self->found[unit] = found[unit];
     }
     finish(self, (status == KEEL_OK) ? COPTER_LEVELLED_DONE : COPTER_LEVELLED_BEYOND);
@@ -183,7 +184,7 @@ static void take_side(copter_accel_calibration_t *self, uint8_t side)
     const uint32_t axis = side / 2u;
     const bool is_up = (side % 2u) == 0u;
 
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         float *const to = is_up ? self->sides[unit].up : self->sides[unit].down;
 
         to[axis] = self->rest[unit].offset[axis];
@@ -221,7 +222,7 @@ static void step_level(copter_accel_calibration_t *self)
     if (!have_rested(self, copter_settings.side.samples)) {
         return;
     }
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         keel_calibration_vector_t force;
 
         keel_calibration_correct(&self->correction[unit], self->rest[unit].offset, &force);

@@ -12,25 +12,27 @@
 
 static void begin_rest(copter_calibration_t *self)
 {
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         keel_calibration_rest_begin(&self->gyroscope[unit]);
     }
     keel_calibration_rest_begin(&self->rest);
 }
 
-keel_status_t copter_calibration_init(copter_calibration_t *calibration)
+keel_status_t copter_calibration_init(copter_calibration_t *calibration, uint32_t units)
 {
     keel_status_t status = keel_calibration_field_init(&calibration->field, &copter_settings.field);
 
-    for (uint32_t unit = 0u; (unit < COPTER_IMUS) && (status == KEEL_OK); unit++) {
+    calibration->units = units;
+    for (uint32_t unit = 0u; (unit < units) && (status == KEEL_OK); unit++) {
         status = keel_calibration_rest_init(&calibration->gyroscope[unit],
                                             &copter_settings.gyroscope);
     }
     status = (status == KEEL_OK)
                  ? keel_calibration_rest_init(&calibration->rest, &copter_settings.rest)
                  : status;
-    status = (status == KEEL_OK) ? copter_accel_calibration_init(&calibration->accelerometers)
-                                 : status;
+    status = (status == KEEL_OK)
+                 ? copter_accel_calibration_init(&calibration->accelerometers, units)
+                 : status;
     begin_rest(calibration);
     copter_calibration_set(calibration);
     return status;
@@ -74,7 +76,7 @@ static bool are_taken(const copter_calibration_t *self)
 {
     bool taken = true;
 
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         taken = taken && (self->gyroscope[unit].state == KEEL_CALIBRATION_DONE);
     }
     return taken;
@@ -97,7 +99,7 @@ bool copter_has_moved(const keel_calibration_rest_t *rest)
 
 static void step_gyroscopes(copter_t *copter)
 {
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < copter->calibration.units; unit++) {
         const keel_virtual_imu_sample_t *const sample = &copter->imu.unit[unit];
 
         if (sample->present) {
@@ -127,7 +129,7 @@ static void seek_rest(copter_t *copter)
 
     step_gyroscopes(copter);
     step_rest(self, &copter->magnetometer);
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         moves = moves || copter_has_moved(&self->gyroscope[unit]);
     }
     if (!moves && copter_has_moved(&self->rest)) {

@@ -68,16 +68,17 @@ static keel_status_t first_of(const keel_status_t status[], uint32_t count)
 
 static keel_status_t make(copter_t *copter)
 {
-    const keel_status_t status[] = {copter_imu_init(&copter->imu),
-                                    copter_calibration_init(&copter->calibration),
-                                    copter_magnetometer_init(&copter->magnetometer),
-                                    copter_barometer_init(&copter->barometer),
-                                    copter_gps_init(&copter->gps),
-                                    copter_pilot_init(&copter->pilot),
-                                    copter_power_init(&copter->power),
-                                    copter_estimate_init(&copter->estimate),
-                                    copter_state_machine_init(&copter->state),
-                                    copter_control_init(&copter->control)};
+    const keel_status_t status[] = {
+        copter_imu_init(&copter->imu, copter->port->imus),
+        copter_calibration_init(&copter->calibration, copter->port->imus),
+        copter_magnetometer_init(&copter->magnetometer),
+        copter_barometer_init(&copter->barometer),
+        copter_gps_init(&copter->gps),
+        copter_pilot_init(&copter->pilot),
+        copter_power_init(&copter->power),
+        copter_estimate_init(&copter->estimate),
+        copter_state_machine_init(&copter->state),
+        copter_control_init(&copter->control)};
 
     return first_of(status, sizeof status / sizeof status[0]);
 }
@@ -161,6 +162,9 @@ keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool pla
     const keel_scheduler_config_t config = urpilot_scheduler_config(port->read_clock, port->clock);
     keel_status_t status;
 
+    if ((port->imus < COPTER_IMUS_LEAST) || (port->imus > COPTER_IMUS)) {
+        return KEEL_ERR_SENSORS;
+    }
     *copter = (copter_t){.port = port, .plain_mean = plain_mean};
     status = copter_parameter_store_start(&copter->parameters, port->memory);
     if (status == KEEL_OK) {

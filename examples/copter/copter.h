@@ -87,6 +87,7 @@ typedef struct copter_doubt {
 
 /** Written by background and foreground IMU. */
 typedef struct copter_imu {
+    uint32_t units; /**< So many there are. */
     keel_oversample_t channel[COPTER_IMUS][KEEL_VIRTUAL_IMU_CHANNELS];
     uint64_t sampled_us[COPTER_IMUS];            /**< When each unit last gave a sample. */
     int16_t temperature[COPTER_IMUS];            /**< Of it, in 0.01 degrees Celsius. */
@@ -129,6 +130,7 @@ typedef enum copter_levelled {
 
 /** Written by calibration IMU; asked for by telemetry. */
 typedef struct copter_accel_calibration {
+    uint32_t units; /**< So many there are. */
     keel_calibration_rest_t rest[COPTER_IMUS];
     keel_calibration_sides_t sides[COPTER_IMUS];
     keel_calibration_correction_t correction[COPTER_IMUS]; /**< In force. */
@@ -148,6 +150,7 @@ typedef struct copter_accel_calibration {
 /** Written by calibration IMU and calibration magnetometer. */
 typedef struct copter_calibration {
     copter_accel_calibration_t accelerometers;
+    uint32_t units; /**< So many there are. */
     keel_calibration_rest_t gyroscope[COPTER_IMUS];
     keel_calibration_rest_t rest; /**< Of the field: while it turns, nothing rests. */
     uint32_t rest_taken;          /**< What was taken of magnetometer.samples. */
@@ -334,6 +337,8 @@ typedef struct copter_state {
     uint32_t homes;  /**< Counts take-offs: home is where the last was. */
     uint64_t stepped_us;
     copter_breach_t breach;
+    uint32_t unconfirmed; /**< Runs in a row in which no second inertial unit confirms the first. */
+    bool lands_unconfirmed; /**< It was asked to land for that. */
 } copter_state_t;
 
 /** Written by scheduler analysis, stack and ADC. */
@@ -397,7 +402,8 @@ struct copter {
  * @param copter     the copter
  * @param port       what it runs on; kept
  * @param plain_mean the units' plain mean in place of their vote: to compare, not to fly
- * @return KEEL_OK, or what the first unit that refuses its settings says
+ * @return KEEL_OK; KEEL_ERR_SENSORS if the port has fewer inertial units than COPTER_IMUS_LEAST or
+ *         more than COPTER_IMUS; or what the first unit that refuses its settings says
  */
 keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool plain_mean);
 
@@ -460,7 +466,7 @@ const keel_task_config_t *copter_declaration(uint32_t row);
 
 /** @name The bodies of the tasks, by the files that have them. */
 /** @{ */
-keel_status_t copter_imu_init(copter_imu_t *imu);
+keel_status_t copter_imu_init(copter_imu_t *imu, uint32_t units);
 void copter_background_imu(copter_t *copter);
 void copter_foreground_imu(copter_t *copter);
 
@@ -519,7 +525,7 @@ void copter_scheduler_analysis(copter_t *copter);
 void copter_stack(copter_t *copter);
 void copter_adc(copter_t *copter);
 
-keel_status_t copter_calibration_init(copter_calibration_t *calibration);
+keel_status_t copter_calibration_init(copter_calibration_t *calibration, uint32_t units);
 /** Whether something has moved since its calibration at rest began. */
 bool copter_has_moved(const keel_calibration_rest_t *rest);
 /** Takes corrections from the settings. */
@@ -527,7 +533,7 @@ void copter_calibration_set(copter_calibration_t *calibration);
 /** Corrects what a unit says, its specific force first, and turns it into the vehicle's axes. */
 void copter_calibration_correct(const copter_calibration_t *calibration, uint32_t unit,
                                 float value[KEEL_VIRTUAL_IMU_CHANNELS]);
-keel_status_t copter_accel_calibration_init(copter_accel_calibration_t *self);
+keel_status_t copter_accel_calibration_init(copter_accel_calibration_t *self, uint32_t units);
 /** Takes corrections and turn from the settings. */
 void copter_accel_calibration_set(copter_accel_calibration_t *self);
 /** Begins to calibrate them, or ends that. */

@@ -10,17 +10,28 @@
 #define SLOW           10u   /* Votes to one of what drifts. */
 #define DOUBT_VOTES    1000u /* What was so within 2 s is told as it is. */
 
-keel_status_t copter_imu_init(copter_imu_t *imu)
+/* The settings of a vote, among so many units. */
+static keel_virtual_imu_config_t among(keel_virtual_imu_config_t config, uint32_t units)
 {
-    keel_status_t status = keel_virtual_imu_init(&imu->virtual_imu, &copter_settings.imu);
+    config.accelerometer.sensors = (uint8_t)units;
+    config.gyroscope.sensors = (uint8_t)units;
+    return config;
+}
 
+keel_status_t copter_imu_init(copter_imu_t *imu, uint32_t units)
+{
+    const keel_virtual_imu_config_t fast = among(copter_settings.imu, units);
+    const keel_virtual_imu_config_t slow = among(copter_settings.slow, units);
+    keel_status_t status = keel_virtual_imu_init(&imu->virtual_imu, &fast);
+
+    imu->units = units;
     if (status == KEEL_OK) {
-        status = keel_virtual_imu_init(&imu->slow, &copter_settings.slow);
+        status = keel_virtual_imu_init(&imu->slow, &slow);
     }
     if (status == KEEL_OK) {
         status = keel_attitude_init(&imu->attitude, &copter_settings.attitude);
     }
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < units; unit++) {
         for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
             const float cutoff_hz = (k < ACCELEROMETER) ? copter_settings.accelerometer_hz
                                                         : copter_settings.gyroscope_hz;
@@ -39,7 +50,7 @@ void copter_background_imu(copter_t *copter)
 {
     copter_imu_t *const self = &copter->imu;
 
-    for (uint32_t unit = 0u; unit < COPTER_IMUS; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         copter_imu_sample_t sample;
 
         if (copter->port->read_imu(copter->port->context, unit, &sample)) {
@@ -104,7 +115,7 @@ static void prepare(copter_imu_t *self, uint32_t unit, const copter_calibration_
  * there thresholds are narrow, and what is voted out is not heard in the vote that flies. */
 static void vote_on_drift(copter_imu_t *self, keel_virtual_imu_sample_t unit[])
 {
-    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+    for (uint32_t i = 0u; i < self->units; i++) {
         keel_virtual_imu_sample_t *const slow = &self->slow_unit[i];
 
         for (uint32_t k = 0u; (k < KEEL_VIRTUAL_IMU_CHANNELS) && unit[i].present && !self->rests[i];
@@ -118,7 +129,7 @@ static void vote_on_drift(copter_imu_t *self, keel_virtual_imu_sample_t unit[])
         keel_virtual_imu_step(&self->slow, self->slow_unit, SLOW * VOTE_PERIOD_US);
     }
     self->votes++;
-    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+    for (uint32_t i = 0u; i < self->units; i++) {
         unit[i].present = unit[i].present && (self->slow.latched[i] == 0u);
     }
 }
@@ -142,13 +153,14 @@ static void doubt(copter_doubt_t *self, const keel_voter_t channel[])
 }
 
 /* The sample of an aircraft without a voter: the mean of what its units last said. */
-static void take_mean(keel_attitude_sample_t *sample, const keel_virtual_imu_sample_t unit[])
+static void take_mean(const copter_imu_t *self, keel_attitude_sample_t *sample,
+                      const keel_virtual_imu_sample_t unit[])
 {
     float mean[KEEL_VIRTUAL_IMU_CHANNELS] = {0.0f};
 
-    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+    for (uint32_t i = 0u; i < self->units; i++) {
         for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
-            mean[k] += unit[i].value[k] / (float)COPTER_IMUS;
+            mean[k] += unit[i].value[k] / (float)self->units;
         }
     }
     sample->has_accelerometer = true;
@@ -226,7 +238,7 @@ void copter_foreground_imu(copter_t *copter)
 
     heed_calibration(self, &copter->calibration);
     heed_field(self, &copter->estimate);
-    for (uint32_t i = 0u; i < COPTER_IMUS; i++) {
+    for (uint32_t i = 0u; i < self->units; i++) {
         const bool goes_on = self->unit[i].present;
 
         take(self, i, copter->scheduler.clock.now_us);
@@ -238,7 +250,7 @@ void copter_foreground_imu(copter_t *copter)
     doubt(&self->gyroscope, &self->virtual_imu.channel[ACCELEROMETER]);
     keel_attitude_take(&sample, &self->virtual_imu);
     if (copter->plain_mean) {
-        take_mean(&sample, unit);
+        take_mean(self, &sample, unit);
     }
     sample.has_magnetometer = copter->magnetometer.samples != self->field_taken;
     sample.magnetometer = copter->magnetometer.field;

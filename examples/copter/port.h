@@ -15,7 +15,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define COPTER_IMUS          3u
+#define COPTER_IMUS          3u /* At most. */
+#define COPTER_IMUS_LEAST    2u
 #define COPTER_POWER_MODULES 2u
 #define COPTER_MOTORS        4u
 
@@ -72,6 +73,7 @@ typedef struct copter_port {
     keel_clock_fn_t read_clock;
     void *clock;   /**< Handed to read_clock. */
     void *context; /**< Handed to all others. */
+    uint32_t imus; /**< Inertial units of the aircraft: 2 agree or do not, 3 outvote one of them. */
     bool (*read_imu)(void *context, uint32_t unit, copter_imu_sample_t *sample);
     bool (*read_magnetometer)(void *context, copter_magnetometer_sample_t *sample);
     bool (*read_barometer)(void *context, copter_barometer_sample_t *sample);

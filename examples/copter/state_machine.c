@@ -4,6 +4,8 @@
 
 #include "keel/middleware/range.h"
 
+#define UNCONFIRMED_RUNS 25u /* Half a second. */
+
 keel_status_t copter_state_machine_init(copter_state_t *state)
 {
     return keel_mode_init(&state->mode, &copter_settings.mode);
@@ -88,6 +90,42 @@ static bool are_confirmed(const keel_virtual_imu_t *imu, uint32_t from, uint32_t
     return confirmed;
 }
 
+/* For the accelerometers or the gyroscopes one unit is left, none, or two that disagree. */
+static bool is_unconfirmed(const keel_virtual_imu_t *imu)
+{
+    bool unconfirmed = false;
+
+    for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
+        const uint8_t state = imu->channel[k].vote.state;
+
+        unconfirmed = unconfirmed || (state == KEEL_VOTER_SINGLE) || (state >= KEEL_VOTER_DISAGREE);
+    }
+    return unconfirmed;
+}
+
+/* Nobody would see the next fault, so it lands. The pilot may know better: he moves his switch. */
+static void land_unconfirmed(copter_t *copter)
+{
+    copter_state_t *const self = &copter->state;
+    copter_action_request_t *const request = &copter->request;
+
+    self->unconfirmed = (is_unconfirmed(&copter->imu.virtual_imu) ||
+                         is_unconfirmed(&copter->imu.slow))
+                            ? (self->unconfirmed + 1u)
+                            : 0u;
+    if (self->unconfirmed == 0u) {
+        self->lands_unconfirmed = false;
+    } else if ((self->unconfirmed >= UNCONFIRMED_RUNS) && !self->lands_unconfirmed &&
+               (self->mode.state == KEEL_MODE_FLYING) &&
+               (request->mode.answer != COPTER_ANSWER_WAITS)) {
+        copter_action_request_mode(request, (uint8_t)KEEL_MODE_LAND, copter->pilot.asked);
+        request->mode.answer = COPTER_ANSWER_NONE; /* Nobody waits for it. */
+        self->lands_unconfirmed = true;
+    } else {
+        /* Not for long enough, or it has been asked for. */
+    }
+}
+
 /* An MS5607 whose readings are taken for an MS5611's shows half of the pressure, and all else of it
  * looks right. Without a pressure there is nothing to say. */
 static bool may_be_of_ground(const copter_barometer_t *barometer)
@@ -142,6 +180,7 @@ void copter_state_machine(copter_t *copter)
     self->frames = copter->pilot.frames;
     self->stepped_us = now_us;
     watch_fence(copter, input.facts);
+    land_unconfirmed(copter);
     copter_action_request_apply(&copter->request, frame, &input);
     keel_mode_step(&self->mode, &input);
     copter_action_request_follow(&copter->request, &self->mode, input.elapsed_us);

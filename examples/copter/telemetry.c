@@ -209,7 +209,17 @@ static void tell_crash(copter_telemetry_t *self, bool is_crashed)
     self->is_crashed = is_crashed;
 }
 
-/* What the pilot hears of votes. */
+/* Says when it lands because one inertial unit is left, or two that disagree. */
+static void tell_unconfirmed(copter_telemetry_t *self, bool lands)
+{
+    if (lands && !self->is_unconfirmed) {
+        copter_text(self, (uint8_t)MAV_SEVERITY_CRITICAL,
+                    "landing: ", "no two inertial units agree");
+    }
+    self->is_unconfirmed = lands;
+}
+
+/* The pilot hears this of votes. */
 static const char *vote_words(uint8_t state)
 {
     static const char *const words[] = {
@@ -433,6 +443,7 @@ void copter_telemetry(copter_t *copter)
     tell_radio(self, &copter->pilot);
     tell_height(self, &copter->estimate.vertical);
     tell_crash(self, copter->estimate.vertical.is_crashed);
+    tell_unconfirmed(self, copter->state.lands_unconfirmed);
     tell_imu(self, &copter->imu);
     copter_keep_calibration(copter);
     copter_mavlink_pass_answers(copter);

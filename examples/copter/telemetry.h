@@ -137,6 +137,7 @@ typedef struct copter_telemetry {
     bool had_height;        /**< It was known once. */
     bool is_outside;        /**< Of the fence, in the last run. */
     bool is_crashed;        /**< As it was told. */
+    bool is_unconfirmed;    /**< The same. */
     uint32_t turns;         /**< What was taken of calibration.turns. */
     uint64_t turned_us;     /**< When it was told that it turns. */
     uint32_t field_ends;    /**< What was taken of calibration.field_ends. */

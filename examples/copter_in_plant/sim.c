@@ -314,6 +314,7 @@ int sim_start(const sim_options_t *chosen)
     }
     port = (copter_port_t){.read_clock = host_board_read,
                            .clock = &board,
+                           .imus = options.imus,
                            .read_imu = read_imu,
                            .read_magnetometer = read_magnetometer,
                            .read_barometer = read_barometer,

@@ -91,6 +91,7 @@ typedef void (*sim_hash_t)(const uint8_t *data, uint32_t size, uint8_t *digest);
 /** How a flight is made. */
 typedef struct sim_options {
     uint32_t costs_percent; /**< Of its budget that a task's run takes: 100. */
+    uint32_t imus;          /**< Inertial units that it has, 2 or 3. */
     uint32_t plain_mean;    /**< 1: the three units' mean in place of their vote, for comparison. */
     uint32_t bytes_per_s[SIM_LINKS]; /**< That each link of telemetry carries; 0: it is not there.
                                           Without any there is no telemetry, nor its task. */

@@ -299,6 +299,7 @@ copter_port_t board_port_start(board_port_t *board)
     keel_chip_uid(board->uid);
     return (copter_port_t){.read_clock = keel_board_clock_us,
                            .context = board,
+                           .imus = COPTER_IMUS,
                            .read_imu = read_imu,
                            .read_magnetometer = read_magnetometer,
                            .read_barometer = read_barometer,

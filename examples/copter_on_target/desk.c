@@ -249,6 +249,7 @@ copter_port_t desk_port(desk_t *desk, keel_clock_fn_t read_clock, void *clock)
     return (copter_port_t){.read_clock = read_clock,
                            .clock = clock,
                            .context = desk,
+                           .imus = COPTER_IMUS,
                            .read_imu = read_imu,
                            .read_magnetometer = read_magnetometer,
                            .read_barometer = read_barometer,

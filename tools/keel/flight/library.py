@@ -185,13 +185,14 @@ class Copter:
         links: Sequence[Link] = (),
         key: Key | None = None,
         memory: Path | None = None,
+        imus: int = 3,
     ) -> None:
         """Power up; all devices are silent and zero."""
         size = self.sensors.dtype.itemsize
         self._ffi.memmove(self._library.sim_sensors(), bytes(size), size)
         options = self._ffi.new("sim_options_t *")
         options.costs_percent, options.plain_mean = costs_percent, int(plain_mean)
-        options.trace = int(self._trace)
+        options.imus, options.trace = imus, int(self._trace)
         for number, link in enumerate(links):
             options.bytes_per_s[number] = link.bytes_per_s
             options.listens[number] = int(not link.commands)

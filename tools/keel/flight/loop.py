@@ -115,7 +115,8 @@ class Flight:
     ) -> None:
         scenario = order.scenario
         self._copter, self._scenario = copter, scenario
-        copter.start(scenario.options.costs_percent, scenario.options.plain_mean, links, key, keep)
+        built = scenario.options
+        copter.start(built.costs_percent, built.plain_mean, links, key, keep, built.imus)
         seeds = np.random.SeedSequence(order.seed).spawn(4)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, airframe_of(order), scenario.heading_deg)

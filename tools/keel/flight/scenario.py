@@ -160,6 +160,7 @@ class Options(Table):
 
     costs_percent: Annotated[int, Field(ge=1, le=1000)] = 100
     plain_mean: bool = False
+    imus: Annotated[int, Field(ge=2, le=3)] = 3
 
 
 Factor = Annotated[float, Field(ge=0.25, le=4.0)]
