@@ -32,27 +32,19 @@
 #define SCALE_M      44330.8f
 #define EXPONENT     0.190263f
 
-/* A number that fits, whatever it was; none of what is no number. */
-static float within(float value, float least, float most)
-{
-    const float low = (value > most) ? most : value;
-
-    return keel_range_contains(low, least, most) ? low : least;
-}
-
 static int16_t small(float value)
 {
-    return (int16_t)within(value, -32767.0f, 32767.0f);
+    return (int16_t)keel_range_clamp(value, -32767.0f, 32767.0f);
 }
 
 static uint16_t plain(float value)
 {
-    return (uint16_t)within(value, 0.0f, 65534.0f);
+    return (uint16_t)keel_range_clamp(value, 0.0f, 65534.0f);
 }
 
 static int32_t millimetres(float metres)
 {
-    return (int32_t)(within(metres, -FAR_M, FAR_M) * MILLI);
+    return (int32_t)(keel_range_clamp(metres, -FAR_M, FAR_M) * MILLI);
 }
 
 static uint32_t now_ms(const copter_t *copter)
@@ -75,13 +67,13 @@ static float sea_level_of_reference(const keel_altitude_t *altitude)
 
 static int32_t along(int32_t origin, float metres, float scale)
 {
-    return origin + (int32_t)(within(metres, -FAR_M, FAR_M) / scale);
+    return origin + (int32_t)(keel_range_clamp(metres, -FAR_M, FAR_M) / scale);
 }
 
 /* Roll, pitch, yaw, in rad. */
 static void angles_of(const keel_attitude_quaternion_t *q, float angle[3])
 {
-    const float sine = within(2.0f * ((q->w * q->y) - (q->z * q->x)), -1.0f, 1.0f);
+    const float sine = keel_range_clamp(2.0f * ((q->w * q->y) - (q->z * q->x)), -1.0f, 1.0f);
 
     angle[0] = atan2f(2.0f * ((q->w * q->x) + (q->y * q->z)),
                       1.0f - (2.0f * ((q->x * q->x) + (q->y * q->y))));
@@ -154,7 +146,7 @@ static int8_t charge_left(const keel_battery_t *battery)
 {
     return (battery->level == KEEL_BATTERY_UNKNOWN)
                ? (int8_t)-1
-               : (int8_t)within(battery->remaining * PERCENT, 0.0f, PERCENT);
+               : (int8_t)keel_range_clamp(battery->remaining * PERCENT, 0.0f, PERCENT);
 }
 
 /* A count that fits. */
@@ -307,9 +299,9 @@ static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
         .cog = plain(((course < 0.0f) ? (course + FULL_TURN) : course) * CENTI),
         .fix_type = (uint8_t)(fix->is_valid ? GPS_FIX_TYPE_3D_FIX : GPS_FIX_TYPE_NO_FIX),
         .satellites_visible = received->satellites,
-        .h_acc = (uint32_t)millimetres(within(fix->accuracy, 0.0f, FAR_M)),
+        .h_acc = (uint32_t)millimetres(keel_range_clamp(fix->accuracy, 0.0f, FAR_M)),
         .v_acc = received->height_accuracy,
-        .vel_acc = (uint32_t)millimetres(within(fix->speed_accuracy, 0.0f, FAR_M))};
+        .vel_acc = (uint32_t)millimetres(keel_range_clamp(fix->speed_accuracy, 0.0f, FAR_M))};
 
     message_gps_raw_int_pack(&message, payload);
     return gps->fixes > 0u;
@@ -372,7 +364,7 @@ static bool vfr_hud(const copter_t *copter, uint8_t *payload)
             .alt = sea_level_of_reference(altitude) + altitude->zero + here->position.up,
             .climb = here->velocity.up,
             .heading = small((heading < 0.0f) ? (heading + FULL_TURN) : heading),
-            .throttle = (uint16_t)within(thrust * PERCENT, 0.0f, PERCENT)};
+            .throttle = (uint16_t)keel_range_clamp(thrust * PERCENT, 0.0f, PERCENT)};
 
         message_vfr_hud_pack(&message, payload);
     }
@@ -479,7 +471,7 @@ static bool global_position_int(const copter_t *copter, uint8_t *payload)
 /* A motor as if it were a servo. */
 static uint16_t pulse_of(float output)
 {
-    return (uint16_t)(1000.0f + within(output * 1000.0f, 0.0f, 1000.0f));
+    return (uint16_t)(1000.0f + keel_range_clamp(output * 1000.0f, 0.0f, 1000.0f));
 }
 
 static void servo_output_raw(const copter_t *copter, uint8_t *payload)
@@ -548,14 +540,16 @@ static void battery_status(const copter_t *copter, uint8_t *payload)
     const keel_battery_t *const battery = &copter->power.battery;
     const bool known = battery->level != KEEL_BATTERY_UNKNOWN;
     message_battery_status_t message = {
-        .current_consumed = known ? (int32_t)within(battery->charge_c / 3.6f, 0.0f, FAR_M) : -1,
-        .energy_consumed = known ? (int32_t)within(battery->energy_j / CENTI, 0.0f, FAR_M) : -1,
+        .current_consumed = known ? (int32_t)keel_range_clamp(battery->charge_c / 3.6f, 0.0f, FAR_M)
+                                  : -1,
+        .energy_consumed = known ? (int32_t)keel_range_clamp(battery->energy_j / CENTI, 0.0f, FAR_M)
+                                 : -1,
         .temperature = INT16_MAX,
         .current_battery = small(battery->current * CENTI),
         .battery_function = (uint8_t)MAV_BATTERY_FUNCTION_ALL,
         .type = (uint8_t)MAV_BATTERY_TYPE_LIPO,
         .battery_remaining = charge_left(battery),
-        .time_remaining = known ? (int32_t)within(battery->remaining_s, 0.0f, FAR_M) : 0,
+        .time_remaining = known ? (int32_t)keel_range_clamp(battery->remaining_s, 0.0f, FAR_M) : 0,
         .charge_state = charge_of(battery->level)};
 
     for (uint32_t i = 0u; i < (sizeof message.voltages / sizeof message.voltages[0]); i++) {

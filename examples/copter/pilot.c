@@ -2,6 +2,8 @@
 /* Background and foreground radio: frames become sticks, switches and what they ask for. */
 #include "copter.h"
 
+#include "keel/middleware/range.h"
+
 /* Channels, of which these are used. */
 #define ROLL      0u
 #define PITCH     1u
@@ -69,24 +71,16 @@ void copter_background_radio(copter_t *copter)
 }
 
 /* A stick, from -1 to 1. */
-static float within(float stick)
-{
-    if (stick < -1.0f) {
-        return -1.0f;
-    }
-    return (stick > 1.0f) ? 1.0f : stick;
-}
-
 static float stick_of(uint16_t channel)
 {
-    return within((float)((int32_t)channel - MIDDLE) / WAY);
+    return keel_range_clamp((float)((int32_t)channel - MIDDLE) / WAY, -1.0f, 1.0f);
 }
 
 /* A stick behind its low-pass, which goes beyond a stair by 4 % for a moment. */
 static float smoothed(keel_filter_t *smoother, float stick)
 {
     (void)keel_filter_step(smoother, stick);
-    return within(smoother->output);
+    return keel_range_clamp(smoother->output, -1.0f, 1.0f);
 }
 
 /* A receiver tells the sticks some 50 times a second. Ten steps of control would ask for the same

@@ -59,7 +59,6 @@ void vote(int slow, int channel, int state)
     keel_virtual_imu_t *const imu = slow ? &copter.imu.slow : &copter.imu.virtual_imu;
     imu->channel[channel].vote.state = (uint8_t)state;
 }
-void be(int state) { copter.state.mode.state = (uint8_t)state; }
 void wait_for_another(int waits)
 {
     copter.request.mode.answer = waits ? COPTER_ANSWER_WAITS : COPTER_ANSWER_NONE;
