@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rivals.h"
 
-#include "keel/rtos/decision.h"
+#include "keel/internal/rtos/decision.h"
 
 /* Which task that is not real-time runs next, or queue->count. */
 typedef uint32_t (*choose_t)(keel_scheduler_t *scheduler, uint64_t now_us);

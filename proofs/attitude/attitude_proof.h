@@ -8,7 +8,7 @@
 #define ATTITUDE_PROOF_H
 
 #include "../common/same.h"
-#include "keel/flight/attitude.h"
+#include "keel/internal/flight/attitude.h"
 
 #include <stdbool.h>
 

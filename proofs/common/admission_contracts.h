@@ -9,7 +9,7 @@
 #ifndef ADMISSION_CONTRACTS_H
 #define ADMISSION_CONTRACTS_H
 
-#include "keel/rtos/admission.h"
+#include "keel/internal/rtos/admission.h"
 #include "keel_proof.h"
 
 static bool totals_same(const keel_admission_t *left, const keel_admission_t *right)

@@ -9,7 +9,7 @@
 #ifndef DECISION_CONTRACTS_H
 #define DECISION_CONTRACTS_H
 
-#include "keel/rtos/decision.h"
+#include "keel/internal/rtos/decision.h"
 #include "keel_proof.h"
 
 static bool is_other(const keel_queue_t *queue, uint32_t i)

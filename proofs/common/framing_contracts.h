@@ -8,7 +8,7 @@
 #define FRAMING_CONTRACTS_H
 
 #include "any_below.h"
-#include "keel/middleware/framing.h"
+#include "keel/internal/middleware/framing.h"
 
 #include <stdbool.h>
 

@@ -17,8 +17,8 @@
 #define KEEL_PROOF_H
 
 #include "any_below.h"
+#include "keel/internal/rtos/queue.h"
 #include "keel/rtos/clock.h"
-#include "keel/rtos/queue.h"
 #include "keel/rtos/stats.h"
 #include "keel/rtos/task.h"
 

@@ -10,7 +10,7 @@
 #ifndef STEP_CONTRACTS_H
 #define STEP_CONTRACTS_H
 
-#include "keel/rtos/scheduler.h"
+#include "keel/internal/rtos/pass.h"
 
 static bool keel_pass_next_may(const keel_scheduler_t *scheduler)
 {

@@ -7,6 +7,7 @@
 #define VOTER_PROOF_H
 
 #include "../../specs/model/voter.h"
+#include "keel/internal/middleware/voter.h"
 #include "same.h"
 
 #include <stdbool.h>

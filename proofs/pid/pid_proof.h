@@ -7,7 +7,7 @@
 #define PID_PROOF_H
 
 #include "../common/keel_flight_proof.h"
-#include "keel/flight/pid.h"
+#include "keel/internal/flight/pid.h"
 
 keel_pid_t nondet_pid(void);
 keel_pid_config_t nondet_pid_config(void);

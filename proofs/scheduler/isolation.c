@@ -36,8 +36,8 @@
  * invariant of the loop in `isolation` (stage_kept); a function for each stage shows that one call
  * of the kernel keeps it.
  */
-#include "keel/rtos/lateness.h"
-#include "keel/rtos/scheduler.h"
+#include "keel/internal/rtos/lateness.h"
+#include "keel/internal/rtos/scheduler.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -14,7 +14,7 @@
  *
  * That the isolation theorems hold with such sleeps is proved in isolation.c.
  */
-#include "keel/rtos/pass.h"
+#include "keel/internal/rtos/pass.h"
 
 #include <stdint.h>
 

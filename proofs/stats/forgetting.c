@@ -15,7 +15,7 @@
  * The invariant: as many runs as were counted down since the last overrun were within the budget.
  * The times are signed, which nothing in the statistics is: provers know memory by its type.
  */
-#include "keel/rtos/stats.h"
+#include "keel/internal/rtos/stats.h"
 
 #include <stdint.h>
 

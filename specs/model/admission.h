@@ -6,7 +6,7 @@
 #ifndef MODEL_ADMISSION_H
 #define MODEL_ADMISSION_H
 
-#include "keel/rtos/admission.h"
+#include "keel/internal/rtos/admission.h"
 
 void model_admission_init(keel_admission_t *admission, uint32_t guard_us,
                           uint32_t utilisation_limit_ppm);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file decision.h
- * @brief What the functions of keel/rtos/decision.h do.
+ * @brief What the functions of keel/internal/rtos/decision.h do.
  */
 #ifndef MODEL_DECISION_H
 #define MODEL_DECISION_H
 
-#include "keel/rtos/decision.h"
+#include "keel/internal/rtos/decision.h"
 
 uint32_t model_decision_realtime(const keel_queue_t *queue, uint32_t from, uint32_t to,
                                  uint64_t now_us);

@@ -6,7 +6,7 @@
 #ifndef MODEL_FRAMING_H
 #define MODEL_FRAMING_H
 
-#include "keel/middleware/framing.h"
+#include "keel/internal/middleware/framing.h"
 
 #include <stdbool.h>
 

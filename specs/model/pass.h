@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file pass.h
- * @brief What the functions of keel/rtos/pass.h do.
+ * @brief What the functions of keel/internal/rtos/pass.h do.
  */
 #ifndef MODEL_PASS_H
 #define MODEL_PASS_H
 
-#include "keel/rtos/pass.h"
+#include "keel/internal/rtos/pass.h"
 
 keel_status_t model_pass_begin(keel_scheduler_t *scheduler, uint32_t raw_us);
 const keel_task_config_t *model_pass_next(keel_scheduler_t *scheduler);

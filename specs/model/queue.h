@@ -6,7 +6,7 @@
 #ifndef MODEL_QUEUE_H
 #define MODEL_QUEUE_H
 
-#include "keel/rtos/queue.h"
+#include "keel/internal/rtos/queue.h"
 
 void model_queue_init(keel_queue_t *queue);
 uint32_t model_queue_find(const keel_queue_t *queue, const keel_task_config_t *task);

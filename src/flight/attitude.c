@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/flight/attitude.h"
+#include "keel/internal/flight/attitude.h"
 
 #include "keel/middleware/range.h"
 

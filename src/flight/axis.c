@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/flight/axis.h"
+#include "keel/internal/flight/axis.h"
 
 #include "keel/middleware/range.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/flight/cascade.h"
+#include "keel/internal/flight/cascade.h"
 
-#include "keel/flight/mode.h"
+#include "keel/internal/flight/mode.h"
 #include "keel/middleware/range.h"
 
 /* An axis of the angle stage acts on that of the rate stage which is so much below it, and one of

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/flight/mode.h"
+#include "keel/internal/flight/mode.h"
 
 #define PILOT                                                                                      \
     (KEEL_MODE_RC_LINKED | KEEL_MODE_ARM_SWITCH_ON | KEEL_MODE_ARM_SWITCH_OFF |                    \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/flight/pid.h"
+#include "keel/internal/flight/pid.h"
 
 #include "keel/middleware/range.h"
 

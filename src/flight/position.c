@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/flight/position.h"
+#include "keel/internal/flight/position.h"
 
 #include "keel/middleware/range.h"
 

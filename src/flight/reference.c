@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/flight/reference.h"
+#include "keel/internal/flight/reference.h"
 
 #include "keel/middleware/range.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/crc.h"
+#include "keel/internal/middleware/crc.h"
 
 #define BITS  8u
 #define TOP   0x80u

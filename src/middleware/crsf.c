@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/crsf.h"
+#include "keel/internal/middleware/crsf.h"
 
 /* Where what is in a frame; a payload begins at PAYLOAD_AT. */
 #define LENGTH_AT  1u

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/framing.h"
+#include "keel/internal/middleware/framing.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/ibus.h"
+#include "keel/internal/middleware/ibus.h"
 
 /* Where what is in a frame, and what its sum and those bytes add up to. */
 #define COMMAND_AT 1u

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/log_ring.h"
+#include "keel/internal/middleware/log_ring.h"
 
 /* How an index is read that the other side writes, and how one's own is handed to it. */
 #ifndef KEEL_LOG_RING_LOAD

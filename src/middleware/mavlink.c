@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/mavlink.h"
+#include "keel/internal/middleware/mavlink.h"
 
 /* Where it is in a header. */
 #define LENGTH_AT     1u

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/ms5611.h"
+#include "keel/internal/middleware/ms5611.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/oversample.h"
+#include "keel/internal/middleware/oversample.h"
 
 #include "keel/middleware/range.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/power_module.h"
+#include "keel/internal/middleware/power_module.h"
 
 #include <stdbool.h>
 

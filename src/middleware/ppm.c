@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/ppm.h"
+#include "keel/internal/middleware/ppm.h"
 
 /*@ requires \valid(ppm) && ppm->come <= KEEL_PPM_CHANNELS;
   @ assigns ppm->channel[0 .. KEEL_PPM_CHANNELS - 1], ppm->channels, ppm->count.frames,

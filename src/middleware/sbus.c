@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/sbus.h"
+#include "keel/internal/middleware/sbus.h"
 
 /* Where the flags and the footer are in a frame. */
 #define FLAGS_AT  (KEEL_SBUS_BYTES - 2)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/signing.h"
+#include "keel/internal/middleware/signing.h"
 
 #define BYTE            0xFFu
 #define BITS            8u

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/ubx.h"
+#include "keel/internal/middleware/ubx.h"
 
 #define SYNC_A 0xB5u
 #define SYNC_B 0x62u

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/ulog.h"
+#include "keel/internal/middleware/ulog.h"
 
 /* The kinds of messages, each by its character. */
 #define FLAG_BITS    0x42u /* B */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/virtual_imu.h"
+#include "keel/internal/middleware/virtual_imu.h"
 
 keel_status_t keel_virtual_imu_init(keel_virtual_imu_t *imu,
                                     const keel_virtual_imu_config_t *config)

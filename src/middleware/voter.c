@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/middleware/voter.h"
+#include "keel/internal/middleware/voter.h"
 
 #include "keel/middleware/range.h"
 

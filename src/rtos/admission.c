@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/admission.h"
+#include "keel/internal/rtos/admission.h"
 
 void keel_admission_init(keel_admission_t *admission, uint32_t guard_us,
                          uint32_t utilisation_limit_ppm)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/decision.h"
+#include "keel/internal/rtos/decision.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/deviation.h"
+#include "keel/internal/rtos/deviation.h"
 
 /*@ assigns \nothing;
   @ ensures \result == distance(a, b);

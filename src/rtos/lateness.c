@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/lateness.h"
+#include "keel/internal/rtos/lateness.h"
 
 #include <stddef.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/load.h"
+#include "keel/internal/rtos/load.h"
 
 /* A time of at most some number of windows comes to at most that number. */
 /*@ lemma LOD_quotient: \forall integer a, w, most;

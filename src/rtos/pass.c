@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/pass.h"
+#include "keel/internal/rtos/pass.h"
 
-#include "keel/rtos/decision.h"
-#include "keel/rtos/queue.h"
-#include "keel/rtos/stats.h"
+#include "keel/internal/rtos/decision.h"
+#include "keel/internal/rtos/queue.h"
+#include "keel/internal/rtos/stats.h"
 
 #include <stdbool.h>
 #include <stddef.h>

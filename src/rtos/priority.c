@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/priority.h"
+#include "keel/internal/rtos/priority.h"
 
 /* The value of sp * age from which eq. 3 saturates: (max - 1) * T. */
 /*@ requires period_valid(period_us);

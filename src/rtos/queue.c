@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/queue.h"
+#include "keel/internal/rtos/queue.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/scheduler.h"
+#include "keel/internal/rtos/scheduler.h"
 
 #include <stdbool.h>
 #include <stddef.h>

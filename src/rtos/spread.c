@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/spread.h"
+#include "keel/internal/rtos/spread.h"
 
 #include <stdbool.h>
 #include <stddef.h>

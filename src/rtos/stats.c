@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/stats.h"
+#include "keel/internal/rtos/stats.h"
 
 /*@ assigns \nothing;
   @ ensures \result == counted(value, UINT16_MAX);

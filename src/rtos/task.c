@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "keel/rtos/task.h"
+#include "keel/internal/rtos/task.h"
 
 #include <stdbool.h>
 

@@ -14,9 +14,9 @@
 #include "keel/flight/filter.h"
 #include "keel/flight/pid.h"
 #include "keel/flight/reference.h"
+#include "keel/internal/rtos/queue.h"
 #include "keel/middleware/voter.h"
 #include "keel/rtos/priority.h"
-#include "keel/rtos/queue.h"
 
 #include <string.h>
 

@@ -48,7 +48,7 @@ class Reduced(unittest.TestCase):
 
     def test_every_public_function_is_known(self) -> None:
         names = public_functions(ROOT)
-        self.assertEqual(names["keel_queue_add"], "include/keel/rtos/queue.h")
+        self.assertEqual(names["keel_queue_add"], "include/keel/internal/rtos/queue.h")
         self.assertEqual(names["keel_clock_advance"], "include/keel/rtos/clock.h")
         self.assertGreater(len(names), 60)
 

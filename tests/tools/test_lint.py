@@ -285,9 +285,10 @@ class IncludeTest(unittest.TestCase):
         for path, header in (
             ("include/keel/rtos/task.h", "keel/rtos/clock.h"),
             ("include/keel/rtos/queue.h", "keel/status.h"),
-            ("include/keel/rtos/scheduler.h", "keel/rtos/pass.h"),
-            ("include/keel/rtos/pass.h", "keel/rtos/decision.h"),
             ("src/rtos/queue.c", "keel/rtos/queue.h"),
+            ("src/rtos/queue.c", "keel/internal/rtos/queue.h"),
+            ("include/keel/internal/rtos/queue.h", "keel/rtos/queue.h"),
+            ("include/keel/internal/rtos/queue.h", "keel/internal/rtos/task.h"),
             ("include/keel/flight/pid.h", "keel/rtos/clock.h"),
             ("src/flight/pid.c", "keel/flight/filter.h"),
         ):
@@ -298,8 +299,11 @@ class IncludeTest(unittest.TestCase):
         for path, header in (
             ("include/keel/rtos/clock.h", "keel/rtos/task.h"),
             ("include/keel/rtos/queue.h", "keel/rtos/scheduler.h"),
-            ("include/keel/rtos/pass.h", "keel/rtos/scheduler.h"),
             ("src/rtos/admission.c", "keel/rtos/decision.h"),
+            ("include/keel/rtos/queue.h", "keel/internal/rtos/queue.h"),
+            ("include/keel/rtos/queue.h", "keel/internal/rtos/task.h"),
+            ("include/keel/internal/rtos/task.h", "keel/internal/rtos/queue.h"),
+            ("include/keel/internal/rtos/task.h", "keel/rtos/queue.h"),
             ("src/rtos/task.c", "keel/flight/pid.h"),
             ("src/middleware/voter.c", "keel/flight/pid.h"),
             ("src/rtos/task.c", "bsp/board.h"),

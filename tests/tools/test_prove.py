@@ -11,6 +11,7 @@ import contextlib
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -789,6 +790,36 @@ class Rules(TreeTest):
         line = self.unit.header.read_text(encoding="utf-8").count("\n")
         [problem] = completeness.without_contract(self.unit, self.root)
         self.assertIn(f"include/keel/rtos/box.h:{line}: keel_box_empty has no contract", problem)
+
+    def contracts_apart(self, include: str) -> Unit:
+        """The unit with its contracts in an internal header; its source includes another line."""
+        bare = re.sub(r"/\*@.*?\*/\n", "", HEADER, flags=re.DOTALL)
+        self.unit.internal.parent.mkdir(parents=True)
+        text = HEADER.replace("RTOS", "INTERNAL_RTOS").replace("keel/status.h", "keel/rtos/box.h")
+        self.unit.internal.write_text(text, encoding="utf-8")
+        self.unit.header.write_text(bare, encoding="utf-8")
+        line = '#include "keel/rtos/box.h"'
+        self.unit.source.write_text(SOURCE.replace(line, include), encoding="utf-8")
+        return find_units(self.root)["box"]
+
+    def test_contracts_may_stand_in_a_header_of_their_own(self) -> None:
+        unit = self.contracts_apart('#include "keel/internal/rtos/box.h"')
+        names = [path.relative_to(self.root / "include/keel").as_posix() for path in unit.headers]
+        self.assertEqual(names, ["rtos/box.h", "internal/rtos/box.h"])
+        self.assertEqual(list(find_units(self.root)), ["box"])
+        self.assertEqual(completeness.without_contract(unit, self.root), [])
+        self.assertEqual(completeness.unread_contracts(unit, self.root), [])
+        self.assertEqual(completeness.missing_harnesses(unit, {}, self.root), [])
+        self.unit.header.rename(self.unit.internal)
+        unit = find_units(self.root)["box"]
+        self.assertEqual((unit.header, unit.headers), (unit.internal, [unit.internal]))
+
+    def test_contracts_that_the_source_does_not_include_hold_of_nothing(self) -> None:
+        unit = self.contracts_apart('#include "keel/rtos/box.h"')
+        [problem] = completeness.unread_contracts(unit, self.root)
+        self.assertIn(
+            "src/rtos/box.c: it does not include include/keel/internal/rtos/box.h", problem
+        )
 
     def test_a_ghost_function_that_leads_back_to_itself_fails(self) -> None:
         ghost = "/*@ ghost\nstatic void {}(int n)\n{{\n    {}(n);\n}}\n*/\n"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/admission.h: each rule where it just holds and one microsecond beyond. */
-#include "keel/rtos/admission.h"
+#include "keel/internal/rtos/admission.h"
 #include "unity.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
 /* Unit tests of keel/flight/attitude.h. Expected values are worked out by hand, at 1000 Hz, where
  * a rate of w rad/s turns by half an angle of w / 2000 in a step. How it does in motion is in
  * test_attitude_motion.c. */
-#include "keel/flight/attitude.h"
+#include "keel/internal/flight/attitude.h"
 #include "unity.h"
 
 #include <math.h>

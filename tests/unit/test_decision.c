@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Unit tests of keel/rtos/decision.h. Expected values are worked out by hand. */
-#include "keel/rtos/decision.h"
+/* Unit tests of keel/internal/rtos/decision.h. Expected values are worked out by hand. */
+#include "keel/internal/rtos/decision.h"
 #include "unity.h"
 
 #include <string.h>

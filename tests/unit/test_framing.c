@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/middleware/framing.h. The header is 0xC8, and a gap is longer than 300 us. */
-#include "keel/middleware/framing.h"
+#include "keel/internal/middleware/framing.h"
 #include "unity.h"
 
 #include <string.h>

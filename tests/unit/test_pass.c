@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Unit tests of keel/rtos/pass.h on a virtual board. Schedules are worked out by hand. */
+/* Unit tests of keel/internal/rtos/pass.h on a virtual board. Schedules are worked out by hand. */
 #include "actors.h"
 
 void setUp(void)

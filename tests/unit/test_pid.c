@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/flight/pid.h. Expected values are worked out by hand. */
-#include "keel/flight/pid.h"
+#include "keel/internal/flight/pid.h"
 #include "unity.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/queue.h. A queue is compared as text: the names of its tasks in order. */
-#include "keel/rtos/queue.h"
+#include "keel/internal/rtos/queue.h"
 #include "unity.h"
 
 #include <string.h>

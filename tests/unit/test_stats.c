@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/rtos/stats.h. Expected values are worked out by hand. */
-#include "keel/rtos/stats.h"
+#include "keel/internal/rtos/stats.h"
 #include "unity.h"
 
 #include <string.h>

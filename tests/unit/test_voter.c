@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of keel/middleware/voter.h. Expected values are worked out by hand: a = 1, n = 3, so
  * an agreement is (3 - d) / 2 between the distances 1 and 3. */
-#include "keel/middleware/voter.h"
+#include "keel/internal/middleware/voter.h"
 #include "unity.h"
 
 #include <math.h>

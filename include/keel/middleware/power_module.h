@@ -62,26 +62,6 @@ typedef struct keel_power_module_reading {
     uint32_t told;       /**< KEEL_POWER_MODULE_OPEN, ...: bits; 0 when there is nothing to tell. */
 } keel_power_module_reading_t;
 
-/*@ predicate power_module_config(keel_power_module_config_t *c) =
-  @     1 <= c->reference_mv <= KEEL_POWER_MODULE_REFERENCE_MAX &&
-  @     1 <= c->divider <= KEEL_POWER_MODULE_SCALE_MAX &&
-  @     1 <= c->ua_per_v <= KEEL_POWER_MODULE_SCALE_MAX;
-  @
-  @ logic integer power_module_most =
-  @     KEEL_POWER_MODULE_REFERENCE_MAX * KEEL_POWER_MODULE_SCALE_MAX;
-  @
-  @ predicate power_module_valid(keel_power_module_t *m) =
-  @     m->voltage <= power_module_most && m->current <= power_module_most;
-  @
-  @ // Counts beyond the highest are the highest.
-  @ logic integer power_module_count(integer count) =
-  @     count < KEEL_POWER_MODULE_COUNT_MAX ? count : KEEL_POWER_MODULE_COUNT_MAX;
-  @
-  @ // 4096 counts, and millionths.
-  @ logic integer power_module_scaled(integer count, integer full) =
-  @     (power_module_count(count) * full + 2048000000) / 4096000000;
-  @*/
-
 /**
  * Makes a module (requirements PMD-001 and PMD-002).
  *
@@ -90,21 +70,6 @@ typedef struct keel_power_module_reading {
  * @return KEEL_OK; KEEL_ERR_LIMITS when reference_mv, divider or ua_per_v is 0 or above its limit:
  *         then nothing is changed
  */
-/*@ requires \valid(module) && \valid_read(config) && \separated(module, config);
-  @ assigns *module;
-  @ behavior limits:
-  @   assumes !power_module_config(config);
-  @   assigns \nothing;
-  @   ensures PMD_001_limits: \result == KEEL_ERR_LIMITS;
-  @ behavior made:
-  @   assumes power_module_config(config);
-  @   ensures PMD_002_made: \result == KEEL_OK && power_module_valid(module) &&
-  @       module->voltage == config->reference_mv * config->divider &&
-  @       module->current == config->reference_mv * config->ua_per_v &&
-  @       module->open_mv == config->open_mv;
-  @ complete behaviors;
-  @ disjoint behaviors;
-  @*/
 keel_status_t keel_power_module_init(keel_power_module_t *module,
                                      const keel_power_module_config_t *config);
 
@@ -116,18 +81,6 @@ keel_status_t keel_power_module_init(keel_power_module_t *module,
  * @param current what it counts for the current, likewise
  * @param reading where it is written
  */
-/*@ requires \valid_read(module) && power_module_valid(module) && \valid(reading) &&
-  @     \separated(module, reading);
-  @ assigns *reading;
-  @ ensures PMD_003_voltage: reading->voltage_mv == power_module_scaled(voltage, module->voltage);
-  @ ensures PMD_003_current: reading->current_ma == power_module_scaled(current, module->current);
-  @ ensures PMD_004_told: reading->told ==
-  @     (reading->voltage_mv <= module->open_mv ? KEEL_POWER_MODULE_OPEN : 0) +
-  @     (voltage >= KEEL_POWER_MODULE_COUNT_MAX ? KEEL_POWER_MODULE_TOP_VOLTAGE : 0) +
-  @     (current >= KEEL_POWER_MODULE_COUNT_MAX ? KEEL_POWER_MODULE_TOP_CURRENT : 0);
-  @ ensures PMD_005_full: reading->told >= KEEL_POWER_MODULE_TOP_VOLTAGE <==>
-  @     (voltage >= KEEL_POWER_MODULE_COUNT_MAX || current >= KEEL_POWER_MODULE_COUNT_MAX);
-  @*/
 void keel_power_module_read(const keel_power_module_t *module, uint16_t voltage, uint16_t current,
                             keel_power_module_reading_t *reading);
 

@@ -110,29 +110,12 @@ typedef struct keel_ulog_message {
     uint8_t bytes[KEEL_ULOG_MESSAGE_BYTES];
 } keel_ulog_message_t;
 
-/*@ predicate ulog_valid(keel_ulog_message_t *m) = m->size <= KEEL_ULOG_MESSAGE_BYTES;
-  @
-  @ // A whole message of a kind, or none.
-  @ predicate ulog_made(keel_ulog_message_t *m, integer kind, integer made) =
-  @     ulog_valid(m) && (made == 0 ==> m->size == 0) && (made != 0 ==>
-  @         m->size >= KEEL_ULOG_HEAD_BYTES && m->bytes[2] == kind && m->overflowed == 0 &&
-  @         m->bytes[0] + 256 * m->bytes[1] == m->size - KEEL_ULOG_HEAD_BYTES);
-  @*/
-
 /**
  * The head of a file (requirement ULG-001): the magic bytes, the version, the time.
  *
  * @param message  receives it
  * @param start_us when logging begins, in us
  */
-/*@ requires \valid(message);
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_001_size: message->size == KEEL_ULOG_BEGIN_BYTES;
-  @ ensures ULG_001_magic: message->bytes[0] == 0x55 && message->bytes[1] == 0x4C &&
-  @     message->bytes[2] == 0x6F && message->bytes[3] == 0x67 && message->bytes[4] == 0x01 &&
-  @     message->bytes[5] == 0x12 && message->bytes[6] == 0x35 && message->bytes[7] == 0x01;
-  @*/
 void keel_ulog_begin(keel_ulog_message_t *message, uint64_t start_us);
 
 /**
@@ -141,12 +124,6 @@ void keel_ulog_begin(keel_ulog_message_t *message, uint64_t start_us);
  *
  * @param message receives it
  */
-/*@ requires \valid(message);
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_002_flags: ulog_made(message, 'B', 1);
-  @ ensures ULG_003_size: message->size == 43;
-  @*/
 void keel_ulog_flags(keel_ulog_message_t *message);
 
 /**
@@ -156,14 +133,6 @@ void keel_ulog_flags(keel_ulog_message_t *message);
  * @param format  the topic
  * @return whether it fits, its fields are not too many, and their types are known
  */
-/*@ requires \valid(message) && \valid_read(format) && \separated(message, format);
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_002_format: ulog_made(message, 'F', \result);
-  @ ensures ULG_004_fields: \result ==> format->fields <= KEEL_ULOG_FIELDS;
-  @ ensures ULG_004_types: \result ==> \forall integer i; 0 <= i < format->fields ==>
-  @     format->field[i].type < KEEL_ULOG_TYPES;
-  @*/
 bool keel_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *format);
 
 /**
@@ -175,15 +144,6 @@ bool keel_ulog_format(keel_ulog_message_t *message, const keel_ulog_format_t *fo
  * @param length  its characters
  * @return whether it fits
  */
-/*@ requires \valid(message) && \valid_read(name) && \valid_read(text + (0 .. length - 1));
-  @ requires \separated(message, name) && \separated(message, text + (0 .. length - 1));
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_002_information: ulog_made(message, 'I', \result);
-  @ ensures ULG_005_text: \result ==> length <= message->size &&
-  @     \forall integer k; 0 <= k < length ==>
-  @         message->bytes[message->size - length + k] == text[k];
-  @*/
 bool keel_ulog_information(keel_ulog_message_t *message, const keel_ulog_name_t *name,
                            const char *text, uint8_t length);
 
@@ -196,13 +156,6 @@ bool keel_ulog_information(keel_ulog_message_t *message, const keel_ulog_name_t 
  * @param value   its four bytes
  * @return whether it may have this type
  */
-/*@ requires \valid(message) && \valid_read(name) && \valid_read(value + (0 .. 3));
-  @ requires \separated(message, name) && \separated(message, value + (0 .. 3));
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_002_parameter: ulog_made(message, 'P', \result);
-  @ ensures ULG_006_type: \result <==> type == KEEL_ULOG_INT32 || type == KEEL_ULOG_FLOAT;
-  @*/
 bool keel_ulog_parameter(keel_ulog_message_t *message, const keel_ulog_name_t *name, uint8_t type,
                          const uint8_t *value);
 
@@ -214,11 +167,6 @@ bool keel_ulog_parameter(keel_ulog_message_t *message, const keel_ulog_name_t *n
  * @param number   the number
  * @param name     the format's name
  */
-/*@ requires \valid(message) && \valid_read(name) && \separated(message, name);
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_002_subscription: ulog_made(message, 'A', 1);
-  @*/
 void keel_ulog_subscription(keel_ulog_message_t *message, uint8_t instance, uint16_t number,
                             const keel_ulog_name_t *name);
 
@@ -228,12 +176,6 @@ void keel_ulog_subscription(keel_ulog_message_t *message, uint8_t instance, uint
  * @param message receives it
  * @param number  of the topic
  */
-/*@ requires \valid(message);
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_002_data: ulog_made(message, 'D', 1);
-  @ ensures ULG_008_size: message->size == 5;
-  @*/
 void keel_ulog_data(keel_ulog_message_t *message, uint16_t number);
 
 /**
@@ -244,21 +186,6 @@ void keel_ulog_data(keel_ulog_message_t *message, uint16_t number);
  * @param count   how many
  * @return whether it fits; otherwise there is no message any more, whatever is added
  */
-/*@ requires \valid(message) && ulog_valid(message);
-  @ requires \valid_read(bytes + (0 .. count - 1));
-  @ requires \separated(message, bytes + (0 .. count - 1));
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_009_valid: ulog_valid(message) && (\result == 0 ==> message->size == 0);
-  @ ensures ULG_009_fits: \result <==> \old(message->size) >= KEEL_ULOG_HEAD_BYTES &&
-  @     count <= KEEL_ULOG_MESSAGE_BYTES - \old(message->size);
-  @ ensures ULG_009_size: \result ==> message->size == \old(message->size) + count &&
-  @     message->bytes[0] + 256 * message->bytes[1] == message->size - KEEL_ULOG_HEAD_BYTES;
-  @ ensures ULG_009_bytes: \result ==> \forall integer k; 0 <= k < count ==>
-  @     message->bytes[\at(message->size, Pre) + k] == bytes[k];
-  @ ensures ULG_009_kept: \result ==> \forall integer k; 2 <= k < \old(message->size) ==>
-  @     message->bytes[k] == \at(message->bytes[k], Pre);
-  @*/
 bool keel_ulog_add(keel_ulog_message_t *message, const uint8_t *bytes, uint16_t count);
 
 /**
@@ -271,17 +198,6 @@ bool keel_ulog_add(keel_ulog_message_t *message, const uint8_t *bytes, uint16_t 
  * @param length  its characters
  * @return whether it fits
  */
-/*@ requires \valid(message) && \valid_read(text + (0 .. length - 1));
-  @ requires \separated(message, text + (0 .. length - 1));
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_002_logging: ulog_made(message, 'L', \result);
-  @ ensures ULG_010_fits: \result <==>
-  @     length <= KEEL_ULOG_MESSAGE_BYTES - KEEL_ULOG_HEAD_BYTES - 9;
-  @ ensures ULG_010_text: \result ==> message->size == KEEL_ULOG_HEAD_BYTES + 9 + length &&
-  @     \forall integer k; 0 <= k < length ==>
-  @         message->bytes[KEEL_ULOG_HEAD_BYTES + 9 + k] == text[k];
-  @*/
 bool keel_ulog_logging(keel_ulog_message_t *message, uint8_t level, uint64_t time_us,
                        const char *text, uint8_t length);
 
@@ -291,12 +207,6 @@ bool keel_ulog_logging(keel_ulog_message_t *message, uint8_t level, uint64_t tim
  * @param message receives it
  * @param lost_us how long, in us; at least a millisecond is noted, and at most 65535
  */
-/*@ requires \valid(message);
-  @ assigns message->size, message->overflowed,
-  @     message->bytes[0 .. KEEL_ULOG_MESSAGE_BYTES - 1];
-  @ ensures ULG_002_dropout: ulog_made(message, 'O', 1);
-  @ ensures ULG_011_size: message->size == KEEL_ULOG_DROPOUT_BYTES;
-  @*/
 void keel_ulog_dropout(keel_ulog_message_t *message, uint64_t lost_us);
 
 /**
@@ -305,11 +215,6 @@ void keel_ulog_dropout(keel_ulog_message_t *message, uint64_t lost_us);
  * @param field the field
  * @return so many values of its type; 0 when that is not known
  */
-/*@ requires \valid_read(field);
-  @ assigns \nothing;
-  @ ensures ULG_012_most: \result <= 8 * field->count;
-  @ ensures ULG_012_unknown: field->type >= KEEL_ULOG_TYPES ==> \result == 0;
-  @*/
 uint16_t keel_ulog_field_bytes(const keel_ulog_field_t *field);
 
 KEEL_C_END

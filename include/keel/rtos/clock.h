@@ -24,6 +24,9 @@ KEEL_C_BEGIN
 /** Uptime up to which the proofs hold, in us: 2^62, about 146 000 years. */
 #define KEEL_CLOCK_TIME_LIMIT_US 0x4000000000000000u
 
+/** The time of what never happens: a release when there is no task. */
+#define KEEL_TIME_NEVER_US UINT64_MAX
+
 /** A widened clock. The caller owns it; only the functions below write it. */
 typedef struct keel_clock {
     uint64_t now_us; /**< Time since initialisation, in us. */

@@ -38,7 +38,7 @@ class Coverage:
 
 def coverage(unit: Unit, function: str, signature: Signature, structures: Structures) -> Coverage:
     """What the contract says of what a function writes and returns."""
-    files = closure(unit.root, [unit.header])
+    files = closure(unit.root, unit.headers)
     contract = _contract(unit, function, read(files))
     found = Coverage()
     ways: list[Path_] = []
@@ -74,10 +74,9 @@ def _contract(unit: Unit, function: str, texts: Iterable[str]) -> _Contract:
     raw = next(
         (
             contract
-            for path in unit.own_files
-            if path.suffix == ".h"
+            for path in unit.headers
             for name, contract in wp_frames.contracts(csource.read(path))
-            if name == function
+            if name == function and contract
         ),
         "",
     )

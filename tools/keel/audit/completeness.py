@@ -9,7 +9,7 @@ from pathlib import Path
 
 from keel.audit.clauses import CLAUSE
 from keel.c import source as csource
-from keel.c.project import Unit
+from keel.c.project import Unit, closure
 from keel.judge import wp_frames
 from keel.judge.harness import read_harness
 
@@ -76,14 +76,32 @@ def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:
 
 
 def without_contract(unit: Unit, root: Path) -> list[str]:
-    """Functions of a unit's header whose contract nobody has written: nothing can be proved."""
-    text = csource.read(unit.header)
-    lines = {function.name: function.line for function in csource.functions(text)}
-    return [
-        f"{unit.header.relative_to(root)}:{lines[name]}: {name} has no contract: write /*@ requires"
-        " ...; assigns ...; ensures ...; */ before it"
+    """Functions of a unit's headers whose contract nobody has written: nothing can be proved."""
+    texts = {path: csource.read(path) for path in unit.headers}
+    stated = {
+        name
+        for text in texts.values()
         for name, annotations in wp_frames.contracts(text)
-        if name in lines and not CLAUSE.search(annotations)
+        if CLAUSE.search(annotations)
+    }
+    return [
+        f"{path.relative_to(root)}:{function.line}: {function.name} has no contract: write"
+        " /*@ requires ...; assigns ...; ensures ...; */ before it"
+        for path, text in texts.items()
+        for function in csource.functions(text)
+        if function.name not in stated
+    ]
+
+
+def unread_contracts(unit: Unit, root: Path) -> list[str]:
+    """Headers with contracts that a unit's source does not include: nothing would be proved."""
+    source = unit.source if unit.source.is_file() else unit.header
+    seen = closure(root, [source])
+    return [
+        f"{source.relative_to(root)}: it does not include {path.relative_to(root)}, whose contracts"
+        " would hold of nothing"
+        for path in unit.headers
+        if path.resolve() not in seen
     ]
 
 
@@ -103,18 +121,18 @@ def undefined_functions(unit: Unit, excepted: Mapping[str, str], root: Path) -> 
 
 
 def missing_harnesses(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]:
-    """Functions of a unit's header that no harness proves."""
+    """Functions of a unit's headers that no harness proves."""
     proved = {read_harness(unit, path).function for path in unit.harnesses}
+    texts = [csource.read(path) for path in unit.headers]
+    names = dict.fromkeys(one.name for text in texts for one in csource.functions(text))
     problems = []
-    names = set()
-    for function in csource.functions(csource.read(unit.header)):
-        names.add(function.name)
-        if function.name not in proved and function.name not in excepted:
-            wanted = unit.folder / f"{function.name}_harness.c"
-            problems.append(f"{function.name} has no harness: write {wanted.relative_to(root)}")
-    for name in sorted(proved - names):
+    for name in names:
+        if name not in proved and name not in excepted:
+            wanted = unit.folder / f"{name}_harness.c"
+            problems.append(f"{name} has no harness: write {wanted.relative_to(root)}")
+    for name in sorted(proved - names.keys()):
         problems.append(
-            f"{unit.folder.relative_to(root)}: {name}, which a harness proves, is not in the header"
+            f"{unit.folder.relative_to(root)}: {name}, which a harness proves, is in no header"
         )
     return problems + _stale(unit, "no_harness", excepted, proved)
 

@@ -66,9 +66,8 @@ class Outcome:
 def public_functions(unit: Unit, exceptions: Exceptions) -> dict[str, Signature]:
     """The functions that a unit offers, those aside that nobody defines."""
     found: dict[str, Signature] = {}
-    for path in unit.own_files:
-        if path.suffix == ".h":
-            found |= signatures(csource.read(path))
+    for path in unit.headers:
+        found |= signatures(csource.read(path))
     return {
         name: signature
         for name, signature in found.items()

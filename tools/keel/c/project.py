@@ -3,6 +3,10 @@
 
 The project is Keel, or one that uses Keel and is laid out alike: `include/LAYER/NAME.h`,
 `src/LAYER/NAME.c`, `proofs/NAME/`. Headers and sources of Keel are then found in Keel.
+
+A header has the contracts of its functions, or leaves them to `include/internal/LAYER/NAME.h`,
+which declares the functions again, with their contracts. A unit that no user calls may have the
+latter alone.
 """
 
 from __future__ import annotations
@@ -17,6 +21,7 @@ from keel.c import source as csource
 
 KEEL = Path(__file__).resolve().parents[3]
 STATE = "_state.h"
+INTERNAL = "internal"
 # How long each job took where it was recorded, in seconds.
 RECORDED_TIMES = "proofs/times.json"
 
@@ -28,6 +33,8 @@ class ProjectError(ToolError):
 @dataclass(frozen=True)
 class Unit:
     """One unit: `include/PACKAGE/LAYER/NAME.h`, `src/LAYER/NAME.c`, `proofs/NAME/`.
+
+    Its contracts may stand in `include/PACKAGE/internal/LAYER/NAME.h`.
 
     A unit's state and the logic about it may stand in a header of their own, `NAME_state.h`.
     """
@@ -44,8 +51,15 @@ class Unit:
 
     @property
     def header(self) -> Path:
-        """Contract of the unit."""
-        return self.root / "include" / self.package / self.layer / f"{self.name}.h"
+        """The header that users include, or the only one of a unit that none calls."""
+        path = self.root / "include" / self.package / self.layer / f"{self.name}.h"
+        return path if path.is_file() or not self.internal.is_file() else self.internal
+
+    @property
+    def internal(self) -> Path:
+        """The contracts of the unit, and the functions that no user calls."""
+        folder = self.root / "include" / self.package / INTERNAL / self.layer
+        return folder / f"{self.name}.h"
 
     @property
     def state(self) -> Path:
@@ -101,22 +115,30 @@ class Unit:
     @property
     def own_files(self) -> list[Path]:
         """Headers and source."""
-        return [path for path in (self.state, self.header, self.source) if path.is_file()]
+        return [path for path in (*self.headers, self.source) if path.is_file()]
+
+    @property
+    def headers(self) -> list[Path]:
+        """Those that there are: of the state and of the unit, each with its contracts behind it."""
+        words = self.internal.with_name(self.state.name)
+        every = (self.state, words, self.header, self.internal)
+        return [path for path in dict.fromkeys(every) if path.is_file()]
 
 
 def find_units(root: Path = KEEL) -> dict[str, Unit]:
     """All units by name, in the order of layers and names."""
     package = "keel" if (root / "include" / "keel").is_dir() else ""
     units: dict[str, Unit] = {}
-    for header in sorted((root / "include" / package).glob("*/*.h")):
+    folder = root / "include" / package
+    headers = [*folder.glob("*/*.h"), *(folder / INTERNAL).glob("*/*.h")]
+    for header in sorted(headers, key=lambda path: path.parts[-2:]):
         if header.name.endswith(STATE):
             continue
         unit = Unit(root, header.parent.name, header.stem, package)
-        if unit.name in units:
+        if units.setdefault(unit.name, unit) != unit:
             raise ProjectError(
                 f"two units are called {unit.name}: {units[unit.name].header}, {header}"
             )
-        units[unit.name] = unit
     return units
 
 

@@ -103,6 +103,8 @@ RTOS_UNITS = (
 )
 RTOS_RANK = {name: rank for rank, names in enumerate(RTOS_UNITS) for name in names}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
+# Contracts, and what no user calls. A source includes them, a header for users does not.
+INTERNAL = "keel/internal/"
 COMMON_HEADERS = frozenset({"keel/c_declarations.h", "keel/status.h"})
 # For users alone: if the kernel included it, a new version would ask for new proofs.
 VERSION_HEADER = "include/keel/version.h"
@@ -121,13 +123,16 @@ def include_reason(path: str, quoted: bool, header: str) -> str:
         return "" if header in SYSTEM_HEADERS else f"<{header}> is not freestanding"
     if header in COMMON_HEADERS:
         return ""
+    if header.startswith(INTERNAL) and path.startswith("include/") and INTERNAL not in path:
+        return f"{header} is not for users"
     layer, unit = unit_of(path)
     other_layer, other_unit = unit_of(header)
     if not header.startswith("keel/") or layer not in LAYERS or other_layer not in LAYERS:
         return f"{header} belongs to no layer"
     if LAYERS.index(other_layer) > LAYERS.index(layer):
         return f"{layer} includes {other_layer}, which stands above it"
-    if layer != "rtos" or (unit == other_unit and path.endswith(".c")):
+    own = unit == other_unit and (path.endswith(".c") or INTERNAL in path)
+    if layer != "rtos" or own:
         return ""
     if unit not in RTOS_RANK or other_unit not in RTOS_RANK:
         return f"{unit} or {other_unit} has no place in the order of units (keel/lint/house.py)"

@@ -14,27 +14,28 @@ _unchanged.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 from keel.c import source as csource
 from keel.c.syntax import written
+from keel.judge import wp_frames
 
 EXCEPTION = re.compile(r"^- (\w+) (keel_\w+), (?:KEEL_ERR_\w+|any): ", re.MULTILINE)
 STATUS = "keel_status_t"
 KEPT = re.compile(r"assigns \\nothing|\b[A-Z]{3,4}_\d{3}_(?:kept|unchanged)\b")
 
 
-def fallible(root: Path) -> Iterator[tuple[str, str]]:
+def fallible(root: Path) -> dict[str, str]:
     """Every function of Keel's headers that returns a status, with its contract."""
+    found: dict[str, str] = {}
     for path in sorted((root / "include").glob("keel/**/*.h")):
         text = csource.read(path)
+        contracts = dict(wp_frames.contracts(text))
         for node, declarator in csource.at_file_level(text):
             name = written(declarator.children[0])
             if name.startswith("keel_") and written(node.child_by_field_name("type")) == STATUS:
-                comments = csource.comments(text[: node.start_byte])
-                contracts = [comment for comment in comments if comment.startswith("/*@")]
-                yield name, contracts[-1] if contracts else ""
+                found[name] = contracts[name] or found.get(name, "")
+    return found
 
 
 def evidence(root: Path, function: str, contract: str) -> str:
@@ -50,7 +51,7 @@ def problems(root: Path) -> list[str]:
     if not path.is_file():
         return []
     listed = {match[2]: match[1] for match in EXCEPTION.finditer(path.read_text(encoding="utf-8"))}
-    stated = {name: evidence(root, name, contract) for name, contract in fallible(root)}
+    stated = {name: evidence(root, name, contract) for name, contract in fallible(root).items()}
     unknown = set(listed) - set(stated)
     found = [f"STA-001: there is no {name} that returns a status" for name in unknown]
     for name, text in stated.items():

@@ -301,6 +301,7 @@ class Session:
             unit, exceptions = result.unit, result.exceptions
             result.outcomes = decider.outcomes(unit)
             result.problems += [text for one in result.outcomes for text in one.problems]
+            result.problems += completeness.unread_contracts(unit, root)
             result.problems += completeness.undefined_functions(unit, exceptions.no_body, root)
             result.problems += completeness.left_by_wp(unit, exceptions.not_by_wp, root)
             result.problems += wp_frames.problems(unit, exceptions, find_units(root).values())

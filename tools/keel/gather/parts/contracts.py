@@ -19,12 +19,13 @@ DECLARATION = re.compile(
 )
 GUARDS = re.compile(r"^[A-Z_]+\n", re.MULTILINE)  # KEEL_C_BEGIN, which stands alone.
 DOCUMENTED = "/**"
+CONTRACT = "/*@"
 SENTENCE = re.compile(
     r"/\*\*[\s*]*(.*?)(?:\s\((?:requirement|eq|[A-Z]{3}-)|(?<!eq)\.\s|\n \*\n|\s*\*/)", re.DOTALL
 )
 TEXT = """\
 The promises and the preconditions of each public function: its comment, its contract in ACSL and
-its prototype, as they stand in the header. The formal proofs are about the contract."""
+its prototype, as they stand in its headers. The formal proofs are about the contract."""
 
 
 class Declared(NamedTuple):
@@ -55,24 +56,34 @@ def declared(text: str) -> Iterator[Declared]:
 
 def items_of(unit: Unit, root: Path) -> Iterator[Item]:
     """A unit and its functions."""
-    header = unit.header.relative_to(root).as_posix()
+    links = tuple(f"file:{path.relative_to(root).as_posix()}" for path in unit.headers)
     yield Item(
         kind="unit",
         id=unit.name,
         title=f"{unit.layer}/{unit.name}",
-        facts={"header": f"file:{header}"},
-        links=(f"file:{header}",),
+        facts={"header": f"file:{unit.header.relative_to(root).as_posix()}"},
+        links=links,
     )
-    for one in declared(read_text(unit.header)):
-        if one.name.startswith(f"{unit.prefix}"):
-            yield Item(
-                kind="function",
-                id=one.name,
-                title=one.title,
-                text=one.text,
-                facts={"declared at": f"{header}:{one.line}"},
-                links=(f"unit:{unit.name}", f"file:{header}"),
-            )
+    texts = {path: read_text(path) for path in unit.headers}
+    apart = {
+        match["name"]: match["comments"].strip()
+        for text in texts.values()
+        for match in DECLARATION.finditer(text)
+        if DOCUMENTED not in match["comments"] and CONTRACT in match["comments"]
+    }
+    for path, text in texts.items():
+        header = path.relative_to(root).as_posix()
+        for one in declared(text):
+            if one.name.startswith(f"{unit.prefix}"):
+                contract = f"\n{apart[one.name]}" if one.name in apart else ""
+                yield Item(
+                    kind="function",
+                    id=one.name,
+                    title=one.title,
+                    text=f"{one.text}{contract}",
+                    facts={"declared at": f"{header}:{one.line}"},
+                    links=(f"unit:{unit.name}", f"file:{header}"),
+                )
 
 
 def make(context: Context) -> Part:
@@ -80,7 +91,7 @@ def make(context: Context) -> Part:
     units = find_units(context.root)
     items = tuple(item for unit in units.values() for item in items_of(unit, context.root))
     functions = [item for item in items if item.kind == "function"]
-    bare = [f"{item.id}: has no contract" for item in functions if "/*@" not in item.text]
+    bare = [f"{item.id}: has no contract" for item in functions if CONTRACT not in item.text]
     return Part(
         name="contracts",
         title="Contracts",

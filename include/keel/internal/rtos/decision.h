@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
- * @file decision.h
+ * @file internal/rtos/decision.h
  * @brief The task that runs now: pure functions over the queue, which change nothing.
  *
  * FCFS takes the first due real-time task in queue order (eq. 1). Among the other tasks those are
@@ -13,21 +13,18 @@
  *
  * Without promotion only those are eligible that fit the slack, in the same order.
  */
-#ifndef KEEL_RTOS_DECISION_H
-#define KEEL_RTOS_DECISION_H
+#ifndef KEEL_INTERNAL_RTOS_DECISION_H
+#define KEEL_INTERNAL_RTOS_DECISION_H
 
 #include "keel/c_declarations.h"
+#include "keel/internal/rtos/priority.h"
+#include "keel/internal/rtos/queue.h"
 #include "keel/rtos/clock.h"
-#include "keel/rtos/priority.h"
-#include "keel/rtos/queue.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
 KEEL_C_BEGIN
-
-/** The time of what never happens: a release when there is no task. */
-#define KEEL_TIME_NEVER_US UINT64_MAX
 
 /*@ // The words of scheduling for the task in slot x.
   @ predicate released(keel_queue_t *q, integer x, integer now_us) = q->release_us[x] <= now_us;

@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
- * @file pass.h
- * @brief A pass: the pieces that keel_scheduler_step is made of, for the proofs and for loops of
- *        one's own.
+ * @file internal/rtos/pass.h
+ * @brief A pass: the pieces that keel_scheduler_step is made of.
  *
  * Begin opens the pass, next decides and hands out the task to run, finish takes its statistics;
  * none of them calls a task. A turn is next, the body and finish; run takes turns until the pass is
  * closed, which is what follows begin in a step. Between two passes idle says how long a loop may
- * sleep. They take a scheduler that is not null; a firmware calls keel_scheduler_step.
+ * sleep. They take a scheduler that is not null.
  */
-#ifndef KEEL_RTOS_PASS_H
-#define KEEL_RTOS_PASS_H
+#ifndef KEEL_INTERNAL_RTOS_PASS_H
+#define KEEL_INTERNAL_RTOS_PASS_H
 
 #include "keel/c_declarations.h"
+#include "keel/internal/rtos/scheduler_state.h"
+#include "keel/internal/rtos/task.h"
 #include "keel/rtos/clock.h"
-#include "keel/rtos/scheduler_state.h"
-#include "keel/rtos/task.h"
 #include "keel/status.h"
 
 #include <stdint.h>
