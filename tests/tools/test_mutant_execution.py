@@ -394,6 +394,20 @@ class Confirming(ExecutionCase):
         self.tried(trial, "*box = 1002;", answer("FAILURE"))
         self.assertEqual(trial.sample.confirmed, 1)
 
+    def test_cbmc_is_asked_about_the_harness_in_which_an_execution_did_not_end(self) -> None:
+        step = {"stepType": "failure", "reason": "pointer outside of object bounds"}
+        fails = Answer([], [], [], True, failed=True, trace=[step])
+        for body in ("box[value + 4] = 1;", "while (value >= 0) { *box = 4; }"):
+            with self.subTest(body):
+                trial = self.trial()
+                with mock.patch.object(Trial, "_passes_unchanged", lambda *_: True):
+                    verdict, _ = self.tried(trial, body, fails)
+                said = "killed: keel_box_put_harness: pointer outside of object bounds"
+                self.assertEqual((verdict.status, verdict.engines), ("killed", {"cbmc": said}))
+                self.assertEqual(trial.sample.executed, 0)
+        verdict, _ = self.tried(self.trial(), "box[value + 4] = 1;", answer("SUCCESS"))
+        self.assertEqual(verdict.engines, {"cbmc": "survived", "wp": "survived"})
+
     def test_what_executions_leave_goes_on(self) -> None:
         verdict, _ = self.tried(self.trial(), "*box = value + 0;", answer("SUCCESS"))
         self.assertEqual(

@@ -48,7 +48,7 @@ from keel.judge.harness import Harness, without_solver
 from keel.mutate.harnesses import Seen, in_tree
 from keel.mutate.operators import Mutant
 from keel.mutate.seeds import Seeds, program
-from keel.mutate.verdicts import EXECUTED
+from keel.mutate.verdicts import EXECUTED, Identity
 
 OWN = Path(__file__).resolve().parent
 RUNTIME = (OWN / "mutant_run.c", OWN / "mutant_run.h")
@@ -94,6 +94,8 @@ NUMBERS = 400
 NUMBER = re.compile(
     r"(?<![\w.])(0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)[uUlLfF]*(?![\w.])"
 )
+# A harness, and how many executions did not end or did what C leaves undefined.
+PASSED = re.compile(r"^PASSED (\w+) \d+ (\d+) (\d+) \d+$", re.M)
 NONDET = re.compile(r"nondet_\w+$")
 
 
@@ -329,6 +331,8 @@ class Executions:
         self._kills: Counter[tuple[str, str]] = Counter()
         self._closures: dict[Path, frozenset[Path]] = {}
         self.failing: dict[str, str] = {}
+        # By mutant: the first harness in which an execution did not come to its end.
+        self.ended: dict[Identity, Harness] = {}
 
     def wrapping(self, name: str) -> Wrapping | None:
         """How a harness becomes a program; None if it cannot."""
@@ -361,7 +365,7 @@ class Executions:
         try:
             for group in self._groups(order, mutant.file):
                 for program, asked in self._parts(group, changed, tree, runner):
-                    if kill := self._run(program, asked, runner):
+                    if kill := self._run(mutant, program, asked, runner):
                         self._kills[function, kill.harness.name] += 1
                         return kill
         except ProjectError:
@@ -626,7 +630,9 @@ class Executions:
         words = [str(word) for one in asked for word in one]
         return runner.run([str(program), what, *words], limit, merged=False, extra=QUIET)
 
-    def _run(self, program: Path, harnesses: Sequence[Harness], runner: Runner) -> Kill | None:
+    def _run(
+        self, mutant: Mutant, program: Path, harnesses: Sequence[Harness], runner: Runner
+    ) -> Kill | None:
         """The first execution that fails, and fails again from a fresh start."""
         left = {one.name: one for one in harnesses}
         for _ in range(DEATHS):
@@ -636,10 +642,14 @@ class Executions:
             done = self._execute(program, "run", asked, runner)
             if found := re.search(r"^FAILED (\w+) (\d+) (.*)$", done.output, re.M):
                 return self._again(program, left[found[1]], int(found[2]), runner)
+            passed = PASSED.findall(done.output)
+            unended = [left[name] for name, hung, ill in passed if int(hung) or int(ill)]
+            # The one after these ended the program, if it did not come to its end.
+            unended += list(left.values())[len(passed) : len(passed) + 1]
+            if unended:
+                self.ended.setdefault(mutant.identity, unended[0])
             if done.status == 0 or done.timed_out:
                 return None
-            passed = re.findall(r"^PASSED (\w+) ", done.output, re.M)
-            # The one after these ended the program.
             left = dict(list(left.items())[len(passed) + 1 :])
         return None
 

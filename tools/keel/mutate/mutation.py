@@ -74,7 +74,8 @@ class Trial:
     """Tries the mutants of one unit.
 
     A mutant is tried first by executions of the harnesses on this machine, some of which CBMC is
-    asked to confirm. What these leave is tried by small harnesses, the one that killed most mutants
+    asked to confirm. Where they do not come to an end, CBMC is asked about the harness in which
+    they did not. What these leave is tried by small harnesses, the one that killed most mutants
     of its function before the others; then by the harnesses that compare its function with the
     model, by the others that cover it, and by WP, which asks the function alone: what its callers
     rely on is its contract, not its body. What is left are the harnesses that were too slow. Among
@@ -228,6 +229,8 @@ class Trial:
         """
         if "cbmc" in self._engines and self._killed_by_execution(verdict, unit, runner):
             return
+        if "cbmc" in self._engines and self._killed_where_it_ended(verdict, unit, runner):
+            return
         if "cbmc" in self._engines and self._killed_by_small(verdict, unit, runner):
             return
         if self._small_only:
@@ -375,6 +378,24 @@ class Trial:
                 verdict.engines["cbmc"] = f"{said}: {kill.said}"
                 verdict.status = "undecided"
                 return True
+        return not self._every
+
+    def _killed_where_it_ended(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
+        """Ask the harness in which no execution came to its end; whether no engine need be asked.
+
+        It does what C leaves undefined, or goes on for ever: small harnesses look for neither.
+        """
+        harness = self._executions and self._executions.ended.get(verdict.mutant.identity)
+        if not harness:
+            return False
+        checker = self._checker(unit.root, runner, self._limit(harness))
+        limited = replace(in_tree(harness, unit.root), timeout=WALL * self._limit(harness))
+        binary, complaint = checker.build(limited, harness.name)
+        answer = None if complaint else checker.check(limited, binary, ["--stop-on-fail"])
+        if not answer or not answer.failed or not self._passes_unchanged(harness.name):
+            return False
+        verdict.engines["cbmc"] = f"killed: {harness.name}: {answer.first_failure}"
+        verdict.status = "killed"
         return not self._every
 
     def _killed_by_small(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
