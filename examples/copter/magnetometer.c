@@ -37,6 +37,13 @@ static void calm_down(copter_magnetometer_t *self, const float field[3])
     }
 }
 
+/* Along an axis, what the wires' current makes of the field. A current that does not come any more
+ * is held by the battery's monitor; before the first it is 0. */
+static float own_field(const copter_t *copter, uint32_t axis)
+{
+    return copter_settings.field_per_ampere[axis] * copter->power.battery.current;
+}
+
 void copter_foreground_magnetometer(copter_t *copter)
 {
     copter_magnetometer_t *const self = &copter->magnetometer;
@@ -51,9 +58,12 @@ void copter_foreground_magnetometer(copter_t *copter)
     if (whole) {
         keel_calibration_vector_t out;
 
+        self->raw = (keel_attitude_vector_t){field[0], field[1], field[2]};
+        for (uint32_t k = 0u; k < 3u; k++) {
+            field[k] -= own_field(copter, k);
+        }
         keel_calibration_correct(&copter->calibration.magnetometer, field, &out);
         calm_down(self, field);
-        self->raw = (keel_attitude_vector_t){field[0], field[1], field[2]};
         self->field = (keel_attitude_vector_t){out.axis[0], out.axis[1], out.axis[2]};
         self->samples++;
     }

@@ -295,6 +295,18 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 1.0f},
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 0.875f},
      .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 1.125f}},
+    {.name = "MAG_CUR_X",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -5.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 5.0f}},
+    {.name = "MAG_CUR_Y",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -5.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 5.0f}},
+    {.name = "MAG_CUR_Z",
+     .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
+     .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -5.0f},
+     .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 5.0f}},
     {.name = "ACC1_OFF_X",
      .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 0.0f},
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = -2.0f},
@@ -475,29 +487,32 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->magnetometer.scale[0] = entry[65].value.real;
     settings->magnetometer.scale[1] = entry[66].value.real;
     settings->magnetometer.scale[2] = entry[67].value.real;
-    settings->correction[0].offset[0] = entry[68].value.real;
-    settings->correction[0].offset[1] = entry[69].value.real;
-    settings->correction[0].offset[2] = entry[70].value.real;
-    settings->correction[0].scale[0] = entry[71].value.real;
-    settings->correction[0].scale[1] = entry[72].value.real;
-    settings->correction[0].scale[2] = entry[73].value.real;
-    settings->correction[1].offset[0] = entry[74].value.real;
-    settings->correction[1].offset[1] = entry[75].value.real;
-    settings->correction[1].offset[2] = entry[76].value.real;
-    settings->correction[1].scale[0] = entry[77].value.real;
-    settings->correction[1].scale[1] = entry[78].value.real;
-    settings->correction[1].scale[2] = entry[79].value.real;
-    settings->correction[2].offset[0] = entry[80].value.real;
-    settings->correction[2].offset[1] = entry[81].value.real;
-    settings->correction[2].offset[2] = entry[82].value.real;
-    settings->correction[2].scale[0] = entry[83].value.real;
-    settings->correction[2].scale[1] = entry[84].value.real;
-    settings->correction[2].scale[2] = entry[85].value.real;
-    settings->trim[0] = entry[86].value.real;
-    settings->trim[1] = entry[87].value.real;
-    settings->board[0] = entry[88].value.real;
-    settings->board[1] = entry[89].value.real;
-    settings->board[2] = entry[90].value.real;
-    settings->system = (uint8_t)entry[91].value.whole;
+    settings->field_per_ampere[0] = entry[68].value.real;
+    settings->field_per_ampere[1] = entry[69].value.real;
+    settings->field_per_ampere[2] = entry[70].value.real;
+    settings->correction[0].offset[0] = entry[71].value.real;
+    settings->correction[0].offset[1] = entry[72].value.real;
+    settings->correction[0].offset[2] = entry[73].value.real;
+    settings->correction[0].scale[0] = entry[74].value.real;
+    settings->correction[0].scale[1] = entry[75].value.real;
+    settings->correction[0].scale[2] = entry[76].value.real;
+    settings->correction[1].offset[0] = entry[77].value.real;
+    settings->correction[1].offset[1] = entry[78].value.real;
+    settings->correction[1].offset[2] = entry[79].value.real;
+    settings->correction[1].scale[0] = entry[80].value.real;
+    settings->correction[1].scale[1] = entry[81].value.real;
+    settings->correction[1].scale[2] = entry[82].value.real;
+    settings->correction[2].offset[0] = entry[83].value.real;
+    settings->correction[2].offset[1] = entry[84].value.real;
+    settings->correction[2].offset[2] = entry[85].value.real;
+    settings->correction[2].scale[0] = entry[86].value.real;
+    settings->correction[2].scale[1] = entry[87].value.real;
+    settings->correction[2].scale[2] = entry[88].value.real;
+    settings->trim[0] = entry[89].value.real;
+    settings->trim[1] = entry[90].value.real;
+    settings->board[0] = entry[91].value.real;
+    settings->board[1] = entry[92].value.real;
+    settings->board[2] = entry[93].value.real;
+    settings->system = (uint8_t)entry[94].value.whole;
 }
 /* clang-format on */

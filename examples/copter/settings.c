@@ -60,6 +60,7 @@ const copter_settings_t copter_defaults = {
     .trim = {0.0f, 0.0f},
     .board = {0.0f, 0.0f, 0.0f},
     .magnetometer = {.offset = {0.0f, 0.0f, 0.0f}, .scale = {1.0f, 1.0f, 1.0f}},
+    .field_per_ampere = {0.0f, 0.0f, 0.0f},
     .attitude = {.rate_hz = CONTROL_HZ,
                  .tilt_gain = 0.3f,
                  .heading_gain = 0.25f,

@@ -45,6 +45,7 @@ typedef struct copter_settings {
     float trim[2];                               /**< Roll and pitch that are mounted, in rad. */
     float board[3];                              /**< The board's roll, pitch, yaw, in rad. */
     keel_calibration_correction_t magnetometer;  /**< Of the magnetometer, in microtesla. */
+    float field_per_ampere[3]; /**< What the battery's current adds to it, in microtesla per A. */
     keel_attitude_config_t attitude;
     keel_axis_config_t altitude;
     keel_position_config_t position;

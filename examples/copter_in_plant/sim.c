@@ -332,6 +332,46 @@ int sim_start(const sim_options_t *chosen)
     return (int)start_copter();
 }
 
+/* A number as a parameter of this type has it. */
+static bool value_of(keel_parameter_type_t type, double number, keel_parameter_value_t *value)
+{
+    *value = (keel_parameter_value_t){.type = type};
+    if (type == KEEL_PARAMETER_FLOAT) {
+        value->real = (float)number;
+        return true;
+    }
+    if (!((double)INT32_MIN <= number) || !(number <= (double)INT32_MAX)) {
+        return false;
+    }
+    value->whole = (int32_t)number;
+    return (double)value->whole == number;
+}
+
+int sim_set(const char *name, double value)
+{
+    copter_parameter_store_t *const store = &copter.parameters;
+    const uint16_t index = keel_parameters_find(&store->table, name);
+    keel_parameter_value_t wanted;
+    keel_status_t status = KEEL_ERR_VALUE;
+
+    if (index >= keel_parameters_count(&store->table)) {
+        return 1;
+    }
+    if (value_of(keel_parameters_get(&store->table, index).type, value, &wanted)) {
+        status = keel_parameters_set(&store->table, index, wanted);
+    }
+    if (status != KEEL_OK) {
+        return (status == KEEL_ERR_VALUE) ? 2 : 3;
+    }
+    if (copter_parameter_store_save(store) != KEEL_OK) {
+        return 4;
+    }
+    while (store->saved == KEEL_SLOTS_BUSY) {
+        copter_parameter_store_step(store);
+    }
+    return (store->saved == KEEL_SLOTS_DONE) ? 0 : 4;
+}
+
 int sim_log(const char *path)
 {
     const int errors = log_errors + (((log_file != NULL) && (fclose(log_file) != 0)) ? 1 : 0);

@@ -150,6 +150,11 @@ typedef struct sim_view {
  * @return 0, or the status with which the kernel refused */
 int sim_start(const sim_options_t *options);
 
+/** Sets a parameter, and saves all that were set in the memory: the next start has it in force.
+ * @return 0; 1: there is no such parameter; 2: the value is not of its type, or out of its range;
+ *         3: it contradicts another; 4: nothing keeps it */
+int sim_set(const char *name, double value);
+
 /** Where the flight's log goes from now on, a file that is made anew; an empty path: nowhere. What
  * was open is closed.
  * @return 0, or how often something could not be opened, written or closed since the last call */

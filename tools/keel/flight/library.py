@@ -118,6 +118,16 @@ def declared() -> Any:
     return ffi
 
 
+# Why sim_set does not take a parameter.
+REFUSED = (
+    "",
+    "there is no such parameter",
+    "it is not of its type, or out of its range",
+    "it contradicts another",
+    "it could not be kept",
+)
+
+
 @dataclass(frozen=True)
 class Link:
     """A link of the copter's telemetry."""
@@ -204,6 +214,11 @@ class Copter:
         if status := self._library.sim_start(options):
             raise ToolError(f"the copter does not start: status {status}")
         self.look()
+
+    def set(self, name: str, value: float) -> None:
+        """Set a parameter, which the memory keeps for the next start."""
+        if status := int(self._library.sim_set(name.encode(), float(value))):
+            raise ToolError(f"parameters: {name} = {value:g}: {REFUSED[status]}")
 
     def _sha256(self, data: Any, size: int, digest: Any) -> None:
         """As C calls it."""

@@ -5,7 +5,8 @@
 
 The picture has attitude, place, motors, votes, the processor's load, and the spectrum of each
 inertial unit while the motors turned (the paper's fig. 13); the tables have the topics, the tasks'
-times and the strongest vibrations. Of a log of PX4 it has what is alike. Where the file is damaged
+times and the strongest vibrations; a line says what the battery's current adds to the magnetic
+field. Of a log of PX4 it has what is alike. Where the file is damaged
 is told by the byte, and the rest is shown.
 
 Exit status: 0, or 2 when the log cannot be read.
@@ -21,6 +22,7 @@ from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text
 from keel.flight import log_plots, tables
+from keel.flight.own_field import own_field
 from keel.timeline import ulog
 
 TOLD = 20  # Places of damage, one by one.
@@ -63,6 +65,8 @@ def show(arguments: Sequence[str] | None) -> int:
     ):
         if table:
             console.print(table)
+    if magnetic := own_field(log):
+        print(magnetic)
     for text in log.texts:
         print(f"{text.time_us / 1e6:10.3f} s  {text.text}")
     tell_damage(path, log)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -101,6 +102,23 @@ def without_faults(order: Order) -> Order:
     return Order(scenario, order.plant, order.seed, order.airframe, order.quality)
 
 
+def start_with(
+    copter: Copter, scenario: Scenario, links: Sequence[Link], key: Key | None, keep: Path | None
+) -> None:
+    """Power up, with the scenario's parameters in the memory: they are set on the ground and are in
+    force after a restart, as a pilot's are."""
+    built = scenario.options
+
+    def start(memory: Path | None) -> None:
+        copter.start(built.costs_percent, built.plain_mean, links, key, memory, built.imus)
+
+    start(keep)
+    for name, value in scenario.parameters.items():
+        copter.set(name, value)
+    if scenario.parameters:
+        start(keep)
+
+
 class Flight:
     """A flight that is being made."""
 
@@ -115,8 +133,10 @@ class Flight:
     ) -> None:
         scenario = order.scenario
         self._copter, self._scenario = copter, scenario
-        built = scenario.options
-        copter.start(built.costs_percent, built.plain_mean, links, key, keep, built.imus)
+        if scenario.parameters and keep is None:
+            self._folder = tempfile.TemporaryDirectory(prefix="keel-parameters-")
+            keep = Path(self._folder.name) / "memory"
+        start_with(copter, scenario, links, key, keep)
         seeds = np.random.SeedSequence(order.seed).spawn(4)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, airframe_of(order), scenario.heading_deg)

@@ -108,7 +108,10 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "task_overrun": ("task", "runs", "extra_us"),
 }
 # What it may have.
-OPTIONAL: dict[str, tuple[str, ...]] = {"imu_vibration": ("alike",)}
+OPTIONAL: dict[str, tuple[str, ...]] = {
+    "imu_vibration": ("alike",),
+    "magnetometer_current": ("along",),
+}
 FaultKind = Literal[
     "imu_freeze",
     "imu_silent",
@@ -148,6 +151,7 @@ class Fault(Table):
     metres: Positive | None = None  # Each fix is off by up to so much, each by another way.
     pascal: float | None = None
     microtesla_per_ampere: float | None = None
+    along: Annotated[list[float], Field(min_length=3, max_length=3)] | None = None  # Body axes.
     motor: Annotated[int, Field(ge=1, le=4)] | None = None
     share: Share | None = None
     task: Text | None = None
@@ -285,6 +289,7 @@ class Scenario(Table):
     pilot: list[Hand] = []
     fault: list[Fault] = []
     options: Options = Options()
+    parameters: dict[Text, float] = {}  # Of the copter, as a ground station sets them; bool: 0, 1.
     limits: Limits = Limits()
     expects_failure: bool = False  # The limits must be broken: what is compared with is worse.
 

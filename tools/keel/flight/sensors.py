@@ -69,6 +69,7 @@ class Broken:
     barometer_lost: bool = False
     barometer_stuck: bool = False  # Samples come, all of them the last good one.
     microtesla_per_ampere: float = 0.0
+    along: tuple[float, float, float] | None = None  # Its direction, body axes; none: drawn.
     radio_lost: bool = False
     radio_failsafe: bool = False
     radio_noise: float = 0.0
@@ -258,8 +259,10 @@ class Slow:
     def _magnetometer(self, plant: Plant, battery: Battery, broken: Broken) -> None:
         quality = self._quality
         noise = quality.field_noise * FIELD_NOISE * self._field_rng.standard_normal(3)
-        per_ampere = quality.field_per_ampere * FIELD_PER_AMPERE + broken.microtesla_per_ampere
-        bias = self._field_bias + battery.current * per_ampere * self._per_ampere
+        own = quality.field_per_ampere * FIELD_PER_AMPERE * self._per_ampere
+        along = self._per_ampere if broken.along is None else np.array(broken.along)
+        per_ampere = own + broken.microtesla_per_ampere * along
+        bias = self._field_bias + battery.current * per_ampere
         self._memory["magnetometer"]["field"] = self._field_turn @ self._field(plant) + bias + noise
         self._memory["magnetometer"]["count"] += 1
 
