@@ -18,6 +18,8 @@
 #include "console.h"
 #include "copter.h"
 #include "desk.h"
+#include "keel/internal/rtos/queue.h"
+#include "keel/internal/rtos/stats.h"
 #include "keel/rtos/scheduler.h"
 #include "keel/rtos/spread.h"
 #include "urpilot_tasks.h"

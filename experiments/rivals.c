@@ -2,6 +2,7 @@
 #include "rivals.h"
 
 #include "keel/internal/rtos/decision.h"
+#include "keel/internal/rtos/pass.h"
 
 /* Which task that is not real-time runs next, or queue->count. */
 typedef uint32_t (*choose_t)(keel_scheduler_t *scheduler, uint64_t now_us);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Unit tests of bsp/common/supervisor.h with a real scheduler on a simulated clock. */
 #include "common/supervisor.h"
+#include "keel/internal/rtos/queue.h"
 #include "unity.h"
 
 #include <string.h>

@@ -11,7 +11,7 @@
 #include <random>
 
 extern "C" {
-#include "keel/middleware/voter.h"
+#include "keel/internal/middleware/voter.h"
 }
 
 using Real = long double;

@@ -123,7 +123,7 @@ class Running(unittest.TestCase):
         good = "load->start_us = now_us;"
         found = self.run_one("tool-bad", good, good.replace(";", " + 1u;"))
         self.assertEqual(len(found.failures), 1)
-        where = r"^include/keel/rtos/load\.h:\d+: Error: Postcondition failed"
+        where = r"^include/keel/internal/rtos/load\.h:\d+: Error: Postcondition failed"
         self.assertRegex(found.failures[0], where)
 
 

@@ -70,7 +70,6 @@ class Resumption(TreeTest):
     def measurement(self, trial: FakeTrial) -> mutate.Measurement:
         made: Any = object.__new__(mutate.Measurement)
         made._options = mutate.parse(["--unit", "box"], ["box"])
-        made._build = self.root / "build/mutate"
         made.engines = ("cbmc",)
         found = mutants(self.unit.source)[:6]
         fake: Any = trial

@@ -9,6 +9,7 @@
 #ifndef KEEL_TESTS_UNIT_ACTORS_H
 #define KEEL_TESTS_UNIT_ACTORS_H
 
+#include "keel/internal/rtos/pass.h"
 #include "keel/rtos/scheduler.h"
 #include "unity.h"
 

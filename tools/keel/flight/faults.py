@@ -105,7 +105,7 @@ class Faults:
             broken.pascal = factor * (fault.pascal or 0.0)
         elif fault.kind == "magnetometer_current":
             broken.microtesla_per_ampere = factor * (fault.microtesla_per_ampere or 0.0)
-            broken.along = tuple(fault.along) if fault.along else None
+            broken.along = fault.along
         elif fault.kind == "motor_weak":
             share = (fault.share or 0.0) if on else 1.0  # Of its thrust.
             self.shares[(fault.motor or 1) - 1] = share ** (1.0 / THRUST_POWER)

@@ -69,7 +69,7 @@ class Broken:
     barometer_lost: bool = False
     barometer_stuck: bool = False  # Samples come, all of them the last good one.
     microtesla_per_ampere: float = 0.0
-    along: tuple[float, float, float] | None = None  # Its direction, body axes; none: drawn.
+    along: list[float] | None = None  # Its direction, body axes; none: drawn.
     radio_lost: bool = False
     radio_failsafe: bool = False
     radio_noise: float = 0.0

@@ -22,8 +22,8 @@ is too weak, or a change that makes no difference; the latter is accepted with i
 proofs/UNIT/equivalent.toml. What does not compile, or compiles to the same code, does not count.
 
 The tree is never touched. build/mutate/UNIT.json has the details, and a digest of what they were
-found with: sources, contracts, harnesses, tools. Each verdict is kept there as it comes: who was
-interrupted calls the program again, and it goes on.
+found with: sources, contracts, harnesses, tools. Each verdict is kept with those of the proofs as
+it comes (KEEL_CACHE): who was interrupted calls the program again, from any clone, and it goes on.
 
 Exit status: 0 when every mutant is killed or explained, 1 when not, 2 for a wrong input.
 """
@@ -211,13 +211,13 @@ class Measurement:
         self.stamp = stamp_of(tools)
         self._tools = tools
         root = units[0].root
-        self._build = root / "build" / "mutate"
         self._scratch = Path(tempfile.mkdtemp(prefix="keel-mutate-"))
         trees = Trees(root, self._scratch, options.jobs)
         programs = tools_for(tools, root, self._scratch, tries(options))
         exceptions = read_exceptions(root / "proofs" / "units.toml", list(find_units(root)))
         times = Times(root / "build/prove/times.json", root / RECORDED_TIMES)
-        cache = Cache(self._build / "cache", options.fresh)
+        cache = Cache(tools.cache.folder / "mutants", options.fresh)
+        cache.prune()
         beyond = {
             name: mutant_slips.numbers_beyond(bounds)
             for name, bounds in determined.bounds_of(root).items()
