@@ -111,6 +111,10 @@ def test_a_log_without_it_and_numbers_that_are_none_are_no_fault() -> None:
     found = own_field(log)
     assert found is not None
     assert found.per_ampere == pytest.approx(PER_AMPERE, abs=0.02)
+    log.data[("attitude", 0)]["q"][100:103] = 0.0  # A flipped bit's, and no attitude.
+    found = own_field(log)
+    assert found is not None
+    assert found.per_ampere == pytest.approx(PER_AMPERE, abs=0.02)
 
 
 def test_a_flight_tells_what_its_parameters_leave(copter: Copter, tmp_path: Path) -> None:

@@ -56,7 +56,9 @@ def own_field(log: Log) -> OwnField | None:
     time, raw = field[0], field[1][:, :3]
     current = np.interp(time, energy[0], energy[1][:, 0])
     turn = np.column_stack([np.interp(time, attitude[0], attitude[1][:, i]) for i in range(4)])
-    whole = np.isfinite(raw).all(axis=1) & np.isfinite(current) & np.isfinite(turn).all(axis=1)
+    with np.errstate(invalid="ignore"):  # What is no attitude becomes no number.
+        turn = turn / np.linalg.norm(turn, axis=1, keepdims=True)
+    whole = np.isfinite(np.column_stack([raw, current, turn])).all(axis=1)
     raw, current, turn = raw[whole], current[whole], turn[whole]
     if len(raw) < LEAST or np.ptp(current) < SPREAD_A:
         return None
@@ -66,8 +68,8 @@ def own_field(log: Log) -> OwnField | None:
 
 
 def body_from_earth(q: Any) -> Any:
-    """R^T of quaternions from body to Earth, w first."""
-    w, x, y, z = (q / np.linalg.norm(q, axis=1, keepdims=True)).T
+    """R^T of unit quaternions from body to Earth, w first."""
+    w, x, y, z = q.T
     rows = (
         (1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)),
         (2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)),
