@@ -75,8 +75,8 @@ class Trial:
 
     A mutant is tried first by executions of the harnesses on this machine, some of which CBMC is
     asked to confirm. Where they do not come to an end, CBMC is asked about the harness in which
-    they did not. What these leave is tried by small harnesses, the one that killed most mutants
-    of its function before the others; then by the harnesses that compare its function with the
+    they did not. Then small harnesses try it, the one that killed most mutants of its function
+    before the others; then it is tried by the harnesses that compare its function with the
     model, by the others that cover it, and by WP, which asks the function alone: what its callers
     rely on is its contract, not its body. What is left are the harnesses that were too slow. Among
     equals the one that is usually fastest comes first. A mutant whose reason to be none is accepted
@@ -342,22 +342,28 @@ class Trial:
         for original in covering:
             if asked.get(original.name, NO_ANSWER) != NO_ANSWER:
                 continue
-            harness = in_tree(original, unit.root)
-            limit = self._limit(harness) if patient else IMPATIENT
-            checker = self._checker(unit.root, runner, limit)
-            binary, complaint = checker.build(harness, harness.name)
-            limited = replace(harness, timeout=WALL * limit)
-            asked[harness.name] = NO_ANSWER
-            if complaint:
-                continue
-            answer = checker.check(limited, binary, ["--stop-on-fail"])
-            if answer.failed and self._passes_unchanged(harness.name):
-                return f"killed: {harness.name}: {answer.first_failure}"
-            if answer.complete:
-                asked[harness.name] = "survived"
+            limit = self._limit(original) if patient else IMPATIENT
+            killed, complete = self._by_harness(original, unit, runner, limit)
+            if killed:
+                return killed
+            asked[original.name] = "survived" if complete else NO_ANSWER
         if not asked:
             return "no harness" if patient else NO_ANSWER
         return NO_ANSWER if not patient or NO_ANSWER in asked.values() else "survived"
+
+    def _by_harness(
+        self, original: Harness, unit: Unit, runner: Runner, limit: float
+    ) -> tuple[str, bool]:
+        """How a harness kills within a limit, or nothing; and whether CBMC came to an end."""
+        harness = replace(in_tree(original, unit.root), timeout=WALL * limit)
+        checker = self._checker(unit.root, runner, limit)
+        binary, complaint = checker.build(harness, harness.name)
+        if complaint:
+            return "", False
+        answer = checker.check(harness, binary, ["--stop-on-fail"])
+        if answer.failed and self._passes_unchanged(harness.name):
+            return f"killed: {harness.name}: {answer.first_failure}", answer.complete
+        return "", answer.complete
 
     def _killed_by_execution(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
         """Execute the harnesses; whether no engine need be asked."""
@@ -388,13 +394,10 @@ class Trial:
         harness = self._executions and self._executions.ended.get(verdict.mutant.identity)
         if not harness:
             return False
-        checker = self._checker(unit.root, runner, self._limit(harness))
-        limited = replace(in_tree(harness, unit.root), timeout=WALL * self._limit(harness))
-        binary, complaint = checker.build(limited, harness.name)
-        answer = None if complaint else checker.check(limited, binary, ["--stop-on-fail"])
-        if not answer or not answer.failed or not self._passes_unchanged(harness.name):
+        killed, _ = self._by_harness(harness, unit, runner, self._limit(harness))
+        if not killed:
             return False
-        verdict.engines["cbmc"] = f"killed: {harness.name}: {answer.first_failure}"
+        verdict.engines["cbmc"] = killed
         verdict.status = "killed"
         return not self._every
 
