@@ -128,7 +128,7 @@ KEEL_REALTIME_CODE static void imu_body(uint32_t length_us)
     while (hang) {
     }
     if (imu.there) {
-        if (keel_invensense_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK) {
+        if (keel_chip_inertial_read(0u, &imu.last) == KEEL_BSP_OK) {
             imu.samples++;
         } else {
             imu.failures++;
@@ -467,6 +467,17 @@ static void obey(char key)
     }
 }
 
+/* All are started, so that each is named; the tasks read the first. */
+static void start_units(void)
+{
+    keel_chip_inertial_begin();
+    for (uint32_t i = 0u; i < keel_chip_inertial_count(); i++) {
+        print_number("sensor ", i + 1u);
+        print_number(" status ", (uint64_t)keel_chip_inertial_start(i));
+        keel_console_text("\n");
+    }
+}
+
 static void print_start(void)
 {
     keel_console_text("Keel on ");
@@ -476,8 +487,7 @@ static void print_start(void)
         keel_console_text("since power-on: ");
         keel_fault_print();
     }
-    print_number("sensor status ", (uint64_t)keel_chip_sensor_start());
-    keel_console_text("\n");
+    start_units();
     print_memory();
 }
 
@@ -509,7 +519,7 @@ int main(void)
 
     print_start();
     offer_brownout();
-    imu.there = (keel_invensense_read(keel_chip_sensor(), &imu.last) == KEEL_BSP_OK);
+    imu.there = (keel_chip_inertial_read(0u, &imu.last) == KEEL_BSP_OK);
     keel_chip_led(KEEL_LED_BLUE, imu.there);
     start_analogue();
     keel_fault_watch(&scheduler);

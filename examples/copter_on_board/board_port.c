@@ -23,17 +23,16 @@
 
 /* --- Sensors. --- */
 
-/* One unit has a driver: the vote gets no sample of the others, and calibration does not end. */
 static bool read_imu(void *context, uint32_t unit, copter_imu_sample_t *sample)
 {
     board_port_t *const board = context;
     keel_chip_motion_t motion;
 
-    if ((unit != 0u) || (board->imu != KEEL_BSP_OK)) {
+    if ((unit >= keel_chip_inertial_count()) || (board->imu[unit].status != KEEL_BSP_OK)) {
         return false;
     }
-    if (keel_chip_motion(&motion) != KEEL_BSP_OK) {
-        board->failures++;
+    if (keel_chip_motion(unit, &motion) != KEEL_BSP_OK) {
+        board->imu[unit].failures++;
         return false;
     }
     for (uint32_t i = 0u; i < 3u; i++) {
@@ -41,7 +40,7 @@ static bool read_imu(void *context, uint32_t unit, copter_imu_sample_t *sample)
         sample->gyroscope[i] = motion.rate[i];
     }
     sample->temperature = motion.temperature_cdeg;
-    board->samples++;
+    board->imu[unit].samples++;
     return true;
 }
 
@@ -236,14 +235,27 @@ static keel_bsp_status_t start_barometer(board_port_t *board)
     return worst;
 }
 
+/* Each is named, those of the vote that the board lacks as well. */
+static void start_units(board_port_t *board)
+{
+    static const char *const name[COPTER_IMUS] = {"imu 1", "imu 2", "imu 3"};
+    const uint32_t count = keel_chip_inertial_count();
+
+    keel_chip_inertial_begin();
+    for (uint32_t i = 0u; i < count; i++) {
+        board->imu[i].status = keel_chip_inertial_start(i);
+        say(name[i], (uint64_t)board->imu[i].status, NULL);
+    }
+    for (uint32_t i = count; i < COPTER_IMUS; i++) {
+        say(name[i], 0u, "the board has none");
+    }
+}
+
 static void start_sensors(board_port_t *board)
 {
     keel_bus_t bus;
 
-    board->imu = keel_chip_sensor_start();
-    say("imu 1", (uint64_t)board->imu, NULL);
-    say("imu 2", 0u, "no driver");
-    say("imu 3", 0u, "no driver");
+    start_units(board);
     board->has_barometer = keel_chip_barometer(&bus);
     if (board->has_barometer) {
         keel_ms5611_begin(&board->barometer, bus);
@@ -289,6 +301,15 @@ static void start_log(board_port_t *board)
     say("card", (uint64_t)board->card, board->has_slot ? NULL : "the board has no slot");
 }
 
+/* What the board declares. A copter has two at least, so a board with one never arms: the check of
+ * calibration names what lacks. */
+static uint32_t imus(void)
+{
+    const uint32_t count = keel_chip_inertial_count();
+
+    return (count < COPTER_IMUS_LEAST) ? COPTER_IMUS_LEAST : count;
+}
+
 copter_port_t board_port_start(board_port_t *board)
 {
     *board = (board_port_t){.turning = false};
@@ -299,7 +320,7 @@ copter_port_t board_port_start(board_port_t *board)
     keel_chip_uid(board->uid);
     return (copter_port_t){.read_clock = keel_board_clock_us,
                            .context = board,
-                           .imus = COPTER_IMUS,
+                           .imus = imus(),
                            .read_imu = read_imu,
                            .read_magnetometer = read_magnetometer,
                            .read_barometer = read_barometer,

@@ -24,9 +24,16 @@ typedef struct board_module {
     bool is_new; /**< Both are newer than what was handed over last. */
 } board_module_t;
 
+/** An inertial unit. */
+typedef struct board_imu {
+    keel_bsp_status_t status; /**< How it started. */
+    uint32_t samples;         /**< That it gave. */
+    uint32_t failures;        /**< Readings of it that failed. */
+} board_imu_t;
+
 /** The devices of a board. */
 typedef struct board_port {
-    keel_bsp_status_t imu;    /**< How the only inertial unit with a driver started. */
+    board_imu_t imu[COPTER_IMUS];
     keel_bsp_status_t adc;    /**< How the converter did. */
     keel_bsp_status_t memory; /**< How the memory of parameters did. */
     keel_card_result_t card;  /**< How opening the log did. */
@@ -34,8 +41,6 @@ typedef struct board_port {
     bool has_slot;            /**< For a card. */
     bool keeps;               /**< Parameters are kept in the memory. */
     bool turning;             /**< The outputs are armed. */
-    uint32_t samples;         /**< Of the inertial unit. */
-    uint32_t failures;        /**< Readings of it that failed. */
     uint32_t pressures;       /**< Samples of the barometer. */
     uint32_t stepped_us;      /**< When it was stepped last. */
     uint32_t measured;        /**< Conversions of the power modules. */

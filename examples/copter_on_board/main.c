@@ -59,14 +59,23 @@ static void print_tasks(void)
     print_number(" overruns ", overruns);
 }
 
+static void print_units(void)
+{
+    for (uint32_t i = 0u; i < keel_chip_inertial_count(); i++) {
+        print_number(" imu", i + 1u);
+        print_number(" ", board.imu[i].samples);
+        print_number(" failed", i + 1u);
+        print_number(" ", board.imu[i].failures);
+    }
+}
+
 static void print_report(void)
 {
     print_number("t ", copter.scheduler.clock.now_us / REPORT_EVERY_US);
     print_number(" s state ", copter.state.mode.state);
     print_number(" load ", copter.health.load_ppm);
     print_tasks();
-    print_number(" imu ", board.samples);
-    print_number(" failed ", board.failures);
+    print_units();
     print_number(" barometer ", board.pressures);
     print_number(" pa ", (uint64_t)copter.barometer.pressure_pa);
     print_number(" battery ", copter.power.battery.level);

@@ -120,7 +120,7 @@ KEEL_REALTIME_CODE static void imu_body(void *context)
     keel_inertial_sample_t sample;
 
     (void)context;
-    if (keel_invensense_read(keel_chip_sensor(), &sample) == KEEL_BSP_OK) {
+    if (keel_chip_inertial_read(0u, &sample) == KEEL_BSP_OK) {
         imu.samples++;
         store_sample(&sample, scheduler.clock.now_us);
     } else {
@@ -229,7 +229,8 @@ int main(void)
     keel_console_text("Keel on ");
     keel_console_text(keel_board_name);
     keel_console_text(": recorder\n");
-    imu.status = keel_chip_sensor_start();
+    keel_chip_inertial_begin();
+    imu.status = keel_chip_inertial_start(0u);
     print_number("sensor status ", (uint64_t)imu.status);
     keel_console_text("\n");
     keel_log_ring_init(&ring);

@@ -27,6 +27,7 @@ from keel.boards.processor import Processor
 from keel.boards.pulses import LOW, Pulse, State
 from keel.boards.rebuilt import SOURCES
 from keel.boards.sockets import read_sockets
+from keel.boards.wiring import WIRINGS
 from keel.install import Toolchain
 
 __all__ = ["pyfatfs"]  # A fixture.
@@ -66,15 +67,16 @@ int main(void)
     const copter_port_t port = board_port_start(&board);
     copter_imu_sample_t sample;
 
-    (void)port.read_imu(&board, 0u, &sample);
-    keel_console_text("body");
-    for (uint32_t i = 0u; i < 3u; i++) {
-        print_signed(sample.accelerometer[i]);
+    for (uint32_t unit = 0u; port.read_imu(&board, unit, &sample); unit++) {
+        keel_console_text("body");
+        for (uint32_t i = 0u; i < 3u; i++) {
+            print_signed(sample.accelerometer[i]);
+        }
+        for (uint32_t i = 0u; i < 3u; i++) {
+            print_signed(sample.gyroscope[i]);
+        }
+        keel_console_text("\\n");
     }
-    for (uint32_t i = 0u; i < 3u; i++) {
-        print_signed(sample.gyroscope[i]);
-    }
-    keel_console_text(port.read_imu(&board, 1u, &sample) ? " another\\n" : " alone\\n");
     for (uint32_t i = 0u; i < 4u; i++) {
         port.write_motors(&board, output[i]);
         wait(6000u);
@@ -167,9 +169,10 @@ def test_every_stack_has_room_and_itcm_no_dead_code(
         "keel_pid_step",
     ):
         assert placed[name] == "ITCM"
-    places = [check for check in report["checks"] if "keel_invensense_read" in check["what"]]
-    assert places
-    assert places[0]["region"] == "ITCM"
+    for name in ("keel_invensense_read", "keel_bmi055_read", "keel_chip_motion"):
+        places = [check for check in report["checks"] if name in check["what"]]
+        assert places, name
+        assert places[0]["region"] == "ITCM"
 
 
 def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, images: Path) -> None:
@@ -177,7 +180,8 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
     for line in (
         "Keel on fmuv5: copter",
         "imu 1 status 0",
-        "imu 2 missing: no driver",
+        "imu 2 status 0",
+        "imu 3 missing: the board has none",
         "barometer status 0",
         "magnetometer missing: no driver",
         "receiver of the pilot missing: no driver",
@@ -187,10 +191,11 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
         assert f"{line}\r\n" in chip.text
     first, second = reports(chip)
     # A thousand samples a second, and fifty pressures: those of the data sheet's example.
-    assert second["imu"] - first["imu"] == 1000
+    assert second["imu1"] - first["imu1"] == 1000
+    assert second["imu2"] - first["imu2"] == 1000
     assert second["barometer"] - first["barometer"] == 50
     assert abs(second["pa"] - 100009) <= 1
-    for key in ("state", "skipped", "overruns", "failed"):
+    for key in ("state", "skipped", "overruns", "failed1", "failed2"):
         assert second[key] == 0, key
     assert [state for log in chip.outputs.log for _, state in log] == ["floats", "low"] * 8
 
@@ -200,6 +205,7 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
     [
         ("sensor", "imu 1 status 5"),
         ("other-sensor", "imu 1 status 6"),
+        ("second-sensor", "imu 2 status 5"),
         ("barometer", "barometer status 5"),
         ("memory", "parameters status 5"),
     ],
@@ -211,7 +217,8 @@ def test_what_is_broken_is_named_and_the_rest_runs(
     assert f"{line}\r\n" in chip.text
     (report,) = reports(chip)
     assert (report["skipped"], report["overruns"], report["state"]) == (0, 0, 0)
-    assert (report["imu"] == 0) == ("sensor" in broken)
+    assert (report["imu1"] == 0) == (broken in ("sensor", "other-sensor"))
+    assert (report["imu2"] == 0) == (broken == "second-sensor")
     assert (report["barometer"] == 0) == (broken == "barometer")
 
 
@@ -224,7 +231,7 @@ def test_a_board_with_less_says_so(tools: Toolchain, images: Path) -> None:
     ):
         assert f"{line}\r\n" in chip.text
     (report,) = reports(chip)
-    assert report["imu"] >= 1000
+    assert report["imu1"] >= 1000
 
 
 def test_the_log_is_on_the_card(tools: Toolchain, images: Path, pyfatfs: tuple[Any, Any]) -> None:
@@ -256,25 +263,28 @@ def turner(
     parts = ["examples/turner", "examples/copter_on_board/board_port.c"]
     image = made.link("keel", [*made.objects(parts), *made.fatfs()])
     sockets = read_sockets(ROOT)[name].outputs
-    chip = Chip(*chip_model.CONSOLES[name], "", sockets)
+    chip = Chip(WIRINGS[name], "", sockets)
     chip.step_us = 2
     Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(300_000)
     return chip
 
 
 def check_turner(chip: Chip) -> None:
-    """The sensor says 1 g along its third axis, 1 count of rate there, and some about its first:
-    both boards have it upside down, so that a board at rest feels -9.807 m/s^2 downwards, and a
-    count of 1 / 16.4 degrees a second is 1.064 mrad/s."""
-    found = re.search(r"^body (.*)\r$", chip.text, re.MULTILINE)
-    assert found is not None, chip.text
-    words = found[1].split()
-    assert words[:3] == ["0", "0", "-9807"]
-    assert words[5] == "-1"
-    about = 4 if len(chip.outputs.log) == 8 else 3  # An FMUv5 has its x to the right.
-    assert chip.sensor.samples == 1  # So often, it counts about its x.
-    assert (words[about], words[7 - about]) == ("1", "0")
-    assert words[6] == "alone"
+    """A unit says 1 g along its third axis, 1 count of rate there, and how often it was read about
+    its first: both boards have it upside down, so that a board at rest feels -9.807 m/s^2
+    downwards, and a count of 1 / 16.4 degrees a second is 1.064 mrad/s."""
+    is_fmuv5 = len(chip.outputs.log) == 8
+    about = 4 if is_fmuv5 else 3  # An FMUv5 has the units' x to the right.
+    units = re.findall(r"^body (.*)\r$", chip.text, re.MULTILINE)
+    assert len(units) == (2 if is_fmuv5 else 1), chip.text
+    samples = [chip.sensor.samples, chip.gyroscope.samples]
+    for unit, count in zip(units, samples, strict=False):
+        words = unit.split()
+        assert words[:3] == ["0", "0", "-9807"]
+        assert words[5] == "-1"
+        assert count == 1
+        assert (words[about], words[7 - about]) == ("1", "0")
+    assert chip.accelerometer.samples == chip.gyroscope.samples
     for number, log in enumerate(chip.outputs.log):
         pulses: list[State] = (
             [Pulse(1000 + 50 * (0, 1, 5, 10, 20)[number + 1], 2500), Pulse(1050, 2500), LOW]
@@ -293,20 +303,24 @@ def test_motors_turn_at_their_sockets_and_samples_are_of_the_body(
     check_turner(turner(tools, sources, board))
 
 
+PORT, UNITS, PINS = (
+    "examples/copter_on_board/board_port.c",
+    "bsp/stm32f767/target/inertial.c",
+    "bsp/fmuv5/pins.c",
+)
 MISTAKES = (
-    ("examples/copter_on_board/board_port.c", "(PULSE_US * output[i])", "(PULSE_US * output[0])"),
-    ("examples/copter_on_board/board_port.c", "keel_chip_pulse(i,", "keel_chip_pulse(3u - i,"),
-    ("examples/copter_on_board/board_port.c", "keel_chip_arm();", ""),
-    ("examples/copter_on_board/board_port.c", "else if (board->turning) {", "else if (false) {"),
-    ("examples/copter_on_board/board_port.c", "(unit != 0u)", "(unit > 1u)"),
-    ("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, 2, 3)"),
-    ("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, -2, -3)"),
-    (
-        "bsp/stm32f767/target/chip.c",
-        "return (axis < 0) ? -(float)sensor",
-        "return (axis < 0) ? (float)sensor",
-    ),
-    ("bsp/stm32f767/target/chip.c", "(9.80665f / 2048.0f)", "(9.80665f / 4096.0f)"),
+    (PORT, "(PULSE_US * output[i])", "(PULSE_US * output[0])"),
+    (PORT, "keel_chip_pulse(i,", "keel_chip_pulse(3u - i,"),
+    (PORT, "keel_chip_arm();", ""),
+    (PORT, "else if (board->turning) {", "else if (false) {"),
+    (PORT, "(unit >= keel_chip_inertial_count())", "(unit > 0u)"),
+    (PORT, "keel_chip_motion(unit,", "keel_chip_motion(0u,"),
+    (PINS, "F, 2u, 2, 1, -3)", "F, 2u, 1, 2, 3)"),
+    (PINS, "F, 2u, 2, 1, -3)", "F, 2u, 1, -2, -3)"),
+    (PINS, "G, 10u, 2, 1, -3)", "G, 10u, 1, -2, -3)"),
+    (PINS, "BMI055, F, 4u, G, 10u", "BMI055, G, 10u, F, 4u"),
+    (UNITS, "? -(float)value", "? (float)value"),
+    (UNITS, "(9.80665f / 2048.0f)", "(9.80665f / 4096.0f)"),
 )
 
 
@@ -330,7 +344,7 @@ def test_mistakes_in_the_port_are_noticed(tools: Toolchain, sources: Path) -> No
             builder.build.made.pop((path,), None)
 
 
-@pytest.mark.parametrize("mounting", ["(2, 1, 3)", "(1, 1, 3)", "(1, 2, 4)", "(0, 2, 3)"])
+@pytest.mark.parametrize("mounting", ["2, 1, 3)", "1, 1, 3)", "1, 2, 4)", "0, 2, 3)"])
 def test_a_mounting_that_is_no_rotation_does_not_compile(
     tools: Toolchain, sources: Path, mounting: str
 ) -> None:
@@ -340,7 +354,7 @@ def test_a_mounting_that_is_no_rotation_does_not_compile(
     builder = firmware.Builder(tools, board, sources / "build/bent", sources)
     builder.object("bsp/fmuv5/pins.c")
     builder.build.made.clear()
-    file.write_text(text.replace("KEEL_MOUNTING(2, 1, -3)", f"KEEL_MOUNTING{mounting}"))
+    file.write_text(text.replace("F, 2u, 2, 1, -3)", f"F, 2u, {mounting}"))
     try:
         with pytest.raises(firmware.ToolError, match="negative"):
             builder.object("bsp/fmuv5/pins.c")

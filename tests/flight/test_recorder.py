@@ -23,6 +23,7 @@ from keel.boards import chip_model, firmware, stack
 from keel.boards.card import SdCard
 from keel.boards.chip import Chip
 from keel.boards.rebuilt import SOURCES
+from keel.boards.wiring import WIRINGS
 from keel.install import Toolchain
 
 __all__ = ["pyfatfs"]  # A fixture.
@@ -40,7 +41,7 @@ def boards() -> Iterator[tuple[Toolchain, Path]]:
         root = Path(name)
         for part in (*SOURCES, "specs"):
             shutil.copytree(ROOT / part, root / part)
-        for board in chip_model.CONSOLES:
+        for board in WIRINGS:
             with contextlib.redirect_stdout(io.StringIO()):
                 firmware.build(tools, board, APPLICATION, root, fatfs=True)
         yield tools, root

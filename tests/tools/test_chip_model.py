@@ -27,6 +27,7 @@ from keel.boards.pulses import Pulse, State
 from keel.boards.rebuilt import SOURCES
 from keel.boards.sockets import pin_of, read_sockets
 from keel.boards.stack_bounds import EXCEPTION_FRAME_B
+from keel.boards.wiring import WIRINGS
 from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -48,7 +49,7 @@ class ImageTest(unittest.TestCase):
         cls.root = Path(folder)
         for part in (*SOURCES, "specs"):
             shutil.copytree(ROOT / part, cls.root / part)
-        for board in chip_model.CONSOLES:
+        for board in WIRINGS:
             with contextlib.redirect_stdout(io.StringIO()):
                 firmware.build(cls.tools, board, [], cls.root)
 
@@ -79,9 +80,9 @@ class ImageTest(unittest.TestCase):
         self.assertEqual(words[chip.SCB + 4], 1 << 25 | 1 << 27)
 
     def test_both_boards_start_and_read_their_sensor(self) -> None:
-        for name in chip_model.CONSOLES:
+        for name in WIRINGS:
             board = self.run_image(board=name)
-            self.assertIn(f"Keel on {name}: 21 tasks\r\nsensor status 0\r\n", board.text)
+            self.assertIn(f"Keel on {name}: 21 tasks\r\nsensor 1 status 0\r\n", board.text)
             # A thousand samples a second from 0.13 s on, when the sensor was started.
             self.assertGreater(board.sensor.samples, 50)
             self.assertEqual(board.resets, 0)
@@ -148,7 +149,7 @@ class ImageTest(unittest.TestCase):
 
     def test_outputs_are_low_but_while_they_are_armed(self) -> None:
         """Over a fault by the code, and over one that the watchdog finds."""
-        for name in chip_model.CONSOLES:
+        for name in WIRINGS:
             for key in "uh":
                 board = self.run_image(0.45, keys=f"pppp{key}", board=name)  # A millisecond each.
                 self.assertEqual(board.resets, 1 if key == "u" else 2)
@@ -167,7 +168,7 @@ class ImageTest(unittest.TestCase):
 
     def test_levels_of_supplies(self) -> None:
         sockets = read_sockets(ROOT)
-        for name in chip_model.CONSOLES:
+        for name in WIRINGS:
             board = self.run_image(0.05, board=name)
             for text in sockets[name].levels:
                 pin, level = text.split()
@@ -205,8 +206,8 @@ class ImageTest(unittest.TestCase):
             self.assertEqual(board.resets, 1, broken)
 
     def test_without_its_sensor_a_board_runs_all_the_same(self) -> None:
-        self.assertIn("sensor status 5", self.run_image(broken="sensor").text)
-        self.assertIn("sensor status 6", self.run_image(broken="other-sensor").text)
+        self.assertIn("sensor 1 status 5", self.run_image(broken="sensor").text)
+        self.assertIn("sensor 1 status 6", self.run_image(broken="other-sensor").text)
 
     # The model's raw numbers: the reference counts 1519, 1502 when it was calibrated; the
     # temperature 1000, and 943 at 30, 1186 at 110 degrees. So the supply is
@@ -231,7 +232,7 @@ class ImageTest(unittest.TestCase):
         self.assertEqual(board.converted[:3], [17, 18, 17])
 
     def test_a_converter_that_never_ends_is_told_and_changes_nothing_else(self) -> None:
-        for name in chip_model.CONSOLES:
+        for name in WIRINGS:
             good = self.run_image(1.2, board=name).text
             bad = self.run_image(1.2, board=name, broken="adc").text
             self.assertIn(" g 106 0 1 adc status 2\r\n", bad)
@@ -313,12 +314,12 @@ class KeptTest(SmallApplication):
     @classmethod
     def setUpClass(cls) -> None:
         super().setUpClass()
-        for board in chip_model.CONSOLES:
+        for board in WIRINGS:
             with contextlib.redirect_stdout(io.StringIO()):
                 firmware.build(cls.tools, board, ["examples/keeper"], cls.root)
 
     def test_sets_are_kept_over_resets(self) -> None:
-        for name in chip_model.CONSOLES:
+        for name in WIRINGS:
             with self.subTest(name):
                 self.check(chip_model.simulate(self.tools, self.root, name, 0.12, step_us=4))
 
@@ -398,7 +399,7 @@ class PulsesTest(SmallApplication):
         sockets = read_sockets(ROOT)[board.name]
         count = len(sockets.outputs)
         self.assertEqual(count, {"fmuv5": 8, "nucleo_f767zi": 4}[board.name])
-        model = Chip(*chip_model.CONSOLES[board.name], "", sockets.watched)
+        model = Chip(WIRINGS[board.name], "", sockets.watched)
         Processor(self.tools, image.binary.read_bytes(), board.load_address, model).run(65_000)
         for number, log in enumerate(model.outputs.log[:count]):
             expected = [
@@ -422,7 +423,7 @@ class PulsesTest(SmallApplication):
             self.assertEqual([log[2][0], log[4][0]], [first[3][0], first[5][0]])
 
     def test_pulses_come_out_of_their_sockets(self) -> None:
-        for name in chip_model.CONSOLES:
+        for name in WIRINGS:
             with self.subTest(name):
                 self.check(self.builder(name))
 
@@ -518,7 +519,7 @@ class BoardTest(unittest.TestCase):
     """The model's own rules."""
 
     def setUp(self) -> None:
-        self.board = Chip(chip.USART3, (3, 14))
+        self.board = Chip(WIRINGS["fmuv5"])
         self.board.write(RCC, 0x0005_0083)  # The oscillator, by a clock from outside.
         self.board.write(RCC + 4, 0x2940_3604)
         self.board.write(RCC, self.board.read(RCC) | 1 << 24)
@@ -556,7 +557,7 @@ class BoardTest(unittest.TestCase):
 
     def output(self, name: str) -> None:
         """An output whose timer runs at 400 Hz, from 16 MHz, as a plain pin that is low."""
-        self.board = Chip(chip.USART3, (3, 14), "", [name])
+        self.board = Chip(WIRINGS["nucleo_f767zi"], "", [name])
         port, pin = pin_of(name.split()[0])
         self.port = chip.GPIOA + 0x400 * port
         self.pin = pin
@@ -676,7 +677,8 @@ class BoardTest(unittest.TestCase):
         self.board.write(RCC + 0x40, 1 << 14)
         self.board.write(chip.GPIOA + 8 * 0x400, 0b10_10_10_00)
         self.board.write(chip.GPIOA + 8 * 0x400 + 0x20, 0x5550)
-        self.board.write(chip.SPI2 + 4, 0x700)
+        self.board.write(chip.GPIOA + 5 * 0x400, 1 << 10)
+        self.board.write(chip.SPI2 + 4, 0x1700)
         self.board.write(chip.SPI2, 0x347)
 
     def test_bytes_to_the_memory_that_must_not_be(self) -> None:
@@ -688,7 +690,9 @@ class BoardTest(unittest.TestCase):
             (port, 0b10_10_00_00, "pin is not its own"),
             (port + 0x20, 0x5560, "pin is not its own"),
             (chip.SPI2, 0x345, "mode 0 or 3"),
-            (chip.SPI2 + 4, 0xF00, "not of eight bits"),
+            (chip.SPI2 + 4, 0x1F00, "not of eight bits"),
+            (chip.SPI2 + 4, 0x0700, "FRXTH"),
+            (chip.GPIOA + 5 * 0x400, 0, "select of the memory floats"),
             (chip.SPI2, 0x307, "is off"),
         ):
             self.memory()
@@ -703,7 +707,9 @@ class BoardTest(unittest.TestCase):
         self.board.write(port, 2 << 4 | 2 << 12 | 2 << 26)
         self.board.write(port + 0x20, 5 << 8 | 5 << 24)
         self.board.write(port + 0x24, 5 << 20)
-        self.board.write(chip.SPI4 + 4, 0x700)
+        self.board.write(chip.GPIOA + 4 * 0x400 + 0x18, 1 << 3)  # Its supply.
+        self.board.write(chip.GPIOA + 5 * 0x400, 1 << 20)
+        self.board.write(chip.SPI4 + 4, 0x1700)
         self.board.write(chip.SPI4, 0x357)
         for high in (False, True, False):  # Deselected in between.
             self.board.write(chip.GPIOA + 5 * 0x400 + 0x18, 1 << (10 if high else 26))
@@ -747,6 +753,7 @@ class BoardTest(unittest.TestCase):
             (chip.SPI4, 0x355, "mode 0 or 3"),
             (chip.SPI4, 0x34F, "at 27 MHz"),
             (chip.SPI4, 0x317, "is off"),
+            (port + 0x18, 1 << 19, "no supply"),
         ):
             self.barometer()
             self.board.write(address, value)
@@ -810,7 +817,7 @@ class BoardTest(unittest.TestCase):
                     self.convert(channel)
 
     def test_a_conversion_that_never_ends_is_ended_by_switching_off(self) -> None:
-        self.board = Chip(chip.USART3, (3, 14), "adc")
+        self.board = Chip(WIRINGS["nucleo_f767zi"], "adc")
         self.converter()
         self.convert(0)
         self.assertEqual(self.board.read(chip.ADC1), 0)
@@ -823,7 +830,7 @@ class BoardTest(unittest.TestCase):
 
     def slot(self) -> None:
         """SDMMC1 as it should be, for a card that is not known yet."""
-        self.board = Chip(chip.UART7, (5, 2))
+        self.board = Chip(WIRINGS["fmuv5"])
         self.board.card = SdCard(bytearray(512 * 1024))
         self.board.write(RCC, 0x0001_0083)
         self.board.write(RCC + 4, 0x2940_3608)  # 16 / 8 * 216 / 9 = 48 MHz.

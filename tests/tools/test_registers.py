@@ -121,8 +121,12 @@ class RegistersTest(unittest.TestCase):
         self.finds("bsp/fmuv5/pins.c", "PG4 high", "PG4 low")
 
     def test_a_sensor_that_is_mounted_otherwise_is_found(self) -> None:
-        self.change("bsp/fmuv5/pins.c", "KEEL_MOUNTING(2, 1, -3)", "KEEL_MOUNTING(1, -2, -3)")
-        self.finds("bsp/fmuv5/pins.c", "mounting [[1, -2, -3]]", "has [2, 1, -3]")
+        self.change("bsp/fmuv5/pins.c", "F, 2u, 2, 1, -3)", "F, 2u, 1, -2, -3)")
+        self.finds("bsp/fmuv5/pins.c", "ICM20689 PF2 1 -2 -3", "has ICM20689 PF2 2 1 -3")
+
+    def test_a_unit_with_its_selects_exchanged_is_found(self) -> None:
+        self.change("bsp/fmuv5/pins.c", "BMI055, F, 4u, G, 10u", "BMI055, G, 10u, F, 4u")
+        self.finds("bsp/fmuv5/pins.c", "BMI055 PG10 PF4", "BMI055 PF4 PG10")
 
     def test_a_board_whose_sockets_nobody_told_is_found(self) -> None:
         path = self.root / SOCKETS

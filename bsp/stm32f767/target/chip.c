@@ -20,6 +20,7 @@
 #include "stm32f767/serial.h"
 #include "stm32f767/spi_bus.h"
 #include "stm32f767/target/cache.h"
+#include "stm32f767/target/chip_parts.h"
 #include "stm32f767/time_base.h"
 #include "stm32f767/watchdog.h"
 
@@ -27,7 +28,6 @@
 #define PWR             ((keel_pwr_t *)PWR_BASE)
 #define FLASH           ((keel_flash_t *)FLASH_BASE)
 #define TIM5            ((keel_tim_t *)TIM5_BASE)
-#define SPI1            ((keel_spi_t *)SPI1_BASE)
 #define SPI2            ((keel_spi_t *)SPI2_BASE)
 #define SPI4            ((keel_spi_t *)SPI4_BASE)
 #define SDMMC1          ((keel_sdmmc_t *)SDMMC1_BASE)
@@ -49,10 +49,8 @@
 #define LOG2_STACK_GUARD 10u
 #define LOG2_HALF_GIB    29u
 #define CARD_CLOCK_HZ    48000000u
-#define CARD_LIMIT_HZ    16000000u /* The processor moves the data: 512 bytes in 64 us. */
-#define FORCE_UNIT       (9.80665f / 2048.0f)   /* In m/s^2. */
-#define RATE_UNIT        (0.017453293f / 16.4f) /* In rad/s. */
-#define DELAY_LOOKS      100000000u             /* Far more than a delay takes, but not for ever. */
+#define CARD_LIMIT_HZ    16000000u  /* The processor moves the data: 512 bytes in 64 us. */
+#define DELAY_LOOKS      100000000u /* Far more than a delay takes, but not for ever. */
 
 #define GPIO_CLOCKS                                                                                \
     (RCC_AHB1ENR_GPIOAEN | RCC_AHB1ENR_GPIOBEN | RCC_AHB1ENR_GPIOCEN | RCC_AHB1ENR_GPIODEN |       \
@@ -66,7 +64,7 @@ static const keel_wait_t patience = {300000u, NULL, NULL};
 
 /* For a byte of the sensor, which takes 1.2 us at 6.75 MHz, or of the memory, 0.3 us: 20 us at some
  * 50 ns a look. Too short only if a look took less than 3 ns, which is less than a cycle. */
-static const keel_wait_t byte_patience = {400u, NULL, NULL};
+const keel_wait_t keel_chip_byte_patience = {400u, NULL, NULL};
 
 /* The guards come last: where regions overlap, the last one holds. Code lies in flash and in ITCM
  * alone. Nothing lies behind the external memory controller, nothing may be read ahead there. */
@@ -86,11 +84,9 @@ static keel_serial_t serial;
 static keel_supervisor_t supervisor;
 static const keel_scheduler_t *supervised;
 static uint32_t last_fed_us;
-static keel_spi_device_t sensor_device;
 
 /* Before memory is filled, but for ITCM: nothing static but constants may be used. */
 
-/* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
 /* Whatever else is on the board sees by this pin whether motors may turn. */
 static void tell_armed(bool armed)
 {
@@ -104,6 +100,7 @@ static void tell_armed(bool armed)
     }
 }
 
+/* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
 void keel_board_early(void)
 {
     keel_bits_enable(&RCC->AHB1ENR, GPIO_CLOCKS);
@@ -114,26 +111,28 @@ void keel_board_early(void)
     (void)keel_backup_open(RCC, PWR, &patience);
 }
 
-static void require(keel_bsp_status_t status)
+void keel_chip_require(keel_bsp_status_t status)
 {
     if (status != KEEL_BSP_OK) {
         keel_fault_stop(KEEL_FAULT_START | (uint32_t)status);
     }
 }
 
-static void give(keel_alternate_t to, keel_pull_t pull)
+void keel_chip_give(keel_alternate_t to, keel_pull_t pull)
 {
     keel_pin_alternate(to.pin, to.function, pull);
 }
 
-/* The pins of an SPI with one device, which is not selected. */
-static void give_spi(keel_pin_t select, keel_alternate_t sck, keel_alternate_t miso,
-                     keel_alternate_t mosi)
+void keel_chip_deselect(keel_pin_t select)
 {
     keel_pin_output(select, KEEL_DRIVE_PUSH_PULL, true);
-    give(sck, KEEL_PULL_UP);  /* Mode 3: the clock rests high. */
-    give(miso, KEEL_PULL_UP); /* Without a device all ones are read. */
-    give(mosi, KEEL_PULL_NONE);
+}
+
+void keel_chip_give_spi(keel_alternate_t sck, keel_alternate_t miso, keel_alternate_t mosi)
+{
+    keel_chip_give(sck, KEEL_PULL_UP); /* Mode 3. */
+    keel_chip_give(miso, KEEL_PULL_UP);
+    keel_chip_give(mosi, KEEL_PULL_NONE);
 }
 
 static void start_leds(void)
@@ -149,9 +148,9 @@ static void start_leds(void)
 static void start_console(uint32_t clock_hz)
 {
     keel_bits_enable(&RCC->APB1ENR, PINS->console_clock);
-    give(PINS->console_tx, KEEL_PULL_UP);
-    give(PINS->console_rx, KEEL_PULL_UP);
-    require(keel_serial_start(&serial, PINS->console, clock_hz, BAUD));
+    keel_chip_give(PINS->console_tx, KEEL_PULL_UP);
+    keel_chip_give(PINS->console_rx, KEEL_PULL_UP);
+    keel_chip_require(keel_serial_start(&serial, PINS->console, clock_hz, BAUD));
 }
 
 /* Supplies, and pins that must not float. */
@@ -194,8 +193,9 @@ static void start_outputs(uint32_t apb1_timer_hz, uint32_t apb2_timer_hz)
     for (uint32_t i = 0u; i < KEEL_CHIP_TIMERS; i++) {
         if (is_used(&keel_chip_timers[i])) {
             keel_bits_enable(clocks[i].enable, clocks[i].bit);
-            require(keel_pwm_start(&keel_chip_timers[i],
-                                   clocks[i].on_apb2 ? apb2_timer_hz : apb1_timer_hz, PWM_RATE_HZ));
+            keel_chip_require(keel_pwm_start(&keel_chip_timers[i],
+                                             clocks[i].on_apb2 ? apb2_timer_hz : apb1_timer_hz,
+                                             PWM_RATE_HZ));
         }
     }
 }
@@ -242,7 +242,7 @@ void keel_board_start(void)
     keel_cache_start();
     freeze_with_the_core();
     keel_bits_enable(&RCC->APB1ENR, RCC_APB1ENR_TIM5EN);
-    require(keel_time_base_start(TIM5, keel_timer_hz(core_hz, apb1)));
+    keel_chip_require(keel_time_base_start(TIM5, keel_timer_hz(core_hz, apb1)));
     start_leds();
     start_console(core_hz / apb1);
     start_outputs(keel_timer_hz(core_hz, apb1), keel_timer_hz(core_hz, apb2));
@@ -323,58 +323,11 @@ void keel_chip_led(keel_led_name_t name, bool on)
     keel_pin_write(led->pin, on != led->active_low);
 }
 
-static keel_bsp_status_t delay(void *context, uint32_t time_us)
+keel_bsp_status_t keel_chip_delay(void *context, uint32_t time_us)
 {
     (void)context;
     return keel_wait_us(keel_board_clock_us, NULL, time_us, DELAY_LOOKS) ? KEEL_BSP_OK
                                                                          : KEEL_BSP_TIMEOUT;
-}
-
-KEEL_REALTIME_CODE keel_invensense_t *keel_chip_sensor(void)
-{
-    static keel_invensense_t sensor = {
-        .kind = &keel_icm20689,
-        .registers = {{keel_spi_bus_exchange, &sensor_device}, delay, NULL},
-        .sample_bus = {keel_spi_bus_exchange, &sensor_device},
-    };
-
-    return &sensor;
-}
-
-keel_bsp_status_t keel_chip_sensor_start(void)
-{
-    for (uint32_t i = 0u; i < PINS->deselect_count; i++) {
-        keel_pin_output(PINS->deselect[i], KEEL_DRIVE_PUSH_PULL, true);
-    }
-    sensor_device = (keel_spi_device_t){SPI1, PINS->sensor_select, &byte_patience};
-    give_spi(PINS->sensor_select, PINS->sck, PINS->miso, PINS->mosi);
-    keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI1EN);
-    require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, keel_icm20689.bus_limit_hz));
-    (void)delay(NULL, POWER_ON_US);
-    return keel_invensense_start(keel_chip_sensor());
-}
-
-/* What is along an axis of the body, of what is along the sensor's. */
-KEEL_REALTIME_CODE static float along(const int16_t value[], int8_t axis)
-{
-    const int16_t sensor = value[((axis < 0) ? -axis : axis) - 1];
-
-    return (axis < 0) ? -(float)sensor : (float)sensor;
-}
-
-KEEL_REALTIME_CODE keel_bsp_status_t keel_chip_motion(keel_chip_motion_t *motion)
-{
-    keel_inertial_sample_t sample;
-    const keel_bsp_status_t status = keel_invensense_read(keel_chip_sensor(), &sample);
-
-    if (status == KEEL_BSP_OK) {
-        for (uint32_t i = 0u; i < 3u; i++) {
-            motion->force[i] = FORCE_UNIT * along(sample.acceleration, PINS->mounting.axis[i]);
-            motion->rate[i] = RATE_UNIT * along(sample.rate, PINS->mounting.axis[i]);
-        }
-        motion->temperature_cdeg = sample.temperature_cdeg;
-    }
-    return status;
 }
 
 bool keel_chip_barometer(keel_bus_t *bus)
@@ -385,10 +338,11 @@ bool keel_chip_barometer(keel_bus_t *bus)
     if (barometer == NULL) {
         return false;
     }
-    device = (keel_spi_device_t){SPI4, barometer->select, &byte_patience};
-    give_spi(barometer->select, barometer->sck, barometer->miso, barometer->mosi);
+    device = (keel_spi_device_t){SPI4, barometer->select, &keel_chip_byte_patience};
+    keel_chip_deselect(barometer->select);
+    keel_chip_give_spi(barometer->sck, barometer->miso, barometer->mosi);
     keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI4EN);
-    require(keel_spi_start(SPI4, KEEL_APB2_LIMIT_HZ, KEEL_MS5611_BUS_LIMIT_HZ));
+    keel_chip_require(keel_spi_start(SPI4, KEEL_APB2_LIMIT_HZ, KEEL_MS5611_BUS_LIMIT_HZ));
     *bus = (keel_bus_t){keel_spi_bus_exchange, &device};
     return true;
 }
@@ -406,16 +360,17 @@ bool keel_chip_card(keel_disk_t *disk)
     if (slot == NULL) {
         return false;
     }
-    give(slot->clock, KEEL_PULL_NONE);
-    give(slot->command, KEEL_PULL_UP);
+    keel_chip_give(slot->clock, KEEL_PULL_NONE);
+    keel_chip_give(slot->command, KEEL_PULL_UP);
     for (uint32_t i = 0u; i < KEEL_CARD_LINES; i++) {
-        give(slot->data[i], KEEL_PULL_UP);
+        keel_chip_give(slot->data[i], KEEL_PULL_UP);
     }
     keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SDMMC1EN);
-    (void)delay(NULL, POWER_ON_US);
-    require(keel_sdmmc_start(&host, SDMMC1, CARD_CLOCK_HZ, CARD_LIMIT_HZ, &prompt, &patient));
+    (void)keel_chip_delay(NULL, POWER_ON_US);
+    keel_chip_require(keel_sdmmc_start(&host, SDMMC1, CARD_CLOCK_HZ, CARD_LIMIT_HZ, &prompt,
+                                       &patient));
     card.host = keel_sdmmc_host(&host);
-    card.delay = delay;
+    card.delay = keel_chip_delay;
     card.patience = busy_patience;
     *disk = keel_sd_card_disk(&card);
     return true;
@@ -477,10 +432,11 @@ static keel_bsp_status_t start_memory(const keel_board_device_t *memory, keel_me
     static keel_bus_t bus = {keel_spi_bus_exchange, &device};
     keel_bsp_status_t status;
 
-    device = (keel_spi_device_t){SPI2, memory->select, &byte_patience};
-    give_spi(memory->select, memory->sck, memory->miso, memory->mosi);
+    device = (keel_spi_device_t){SPI2, memory->select, &keel_chip_byte_patience};
+    keel_chip_deselect(memory->select);
+    keel_chip_give_spi(memory->sck, memory->miso, memory->mosi);
     keel_bits_enable(&RCC->APB1ENR, RCC_APB1ENR_SPI2EN);
-    require(keel_spi_start(SPI2, KEEL_APB1_LIMIT_HZ, KEEL_FM25V02_BUS_LIMIT_HZ));
+    keel_chip_require(keel_spi_start(SPI2, KEEL_APB1_LIMIT_HZ, KEEL_FM25V02_BUS_LIMIT_HZ));
     status = keel_fm25v02_start(&bus);
     if (status == KEEL_BSP_OK) {
         *medium = keel_fm25v02_medium(&bus);
@@ -519,7 +475,7 @@ void keel_chip_watchdog_start(const keel_scheduler_t *scheduler)
     supervised = scheduler;
     keel_supervisor_start(&supervisor, scheduler);
     last_fed_us = keel_board_clock_us(NULL);
-    require(keel_watchdog_start(IWDG, WATCHDOG_US, &patience));
+    keel_chip_require(keel_watchdog_start(IWDG, WATCHDOG_US, &patience));
 }
 
 void keel_chip_turn(void)
@@ -554,7 +510,7 @@ keel_bsp_status_t keel_chip_pulse(uint32_t output, uint32_t pulse_us)
 void keel_chip_arm(void)
 {
     tell_armed(true);
-    require(keel_pwm_arm(PINS->outputs, PINS->output_count));
+    keel_chip_require(keel_pwm_arm(PINS->outputs, PINS->output_count));
 }
 
 /* A conversion takes 11.6 us. At some 50 ns a look this gives up after 25 us, within the budget of

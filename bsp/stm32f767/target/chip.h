@@ -7,9 +7,10 @@
 #ifndef KEEL_BSP_STM32F767_TARGET_CHIP_H
 #define KEEL_BSP_STM32F767_TARGET_CHIP_H
 
+#include "common/bus.h"
 #include "common/disk.h"
 #include "common/slots.h"
-#include "devices/invensense.h"
+#include "devices/inertial.h"
 #include "keel/rtos/scheduler.h"
 #include "stm32f767/adc.h"
 #include "stm32f767/clock_tree.h"
@@ -160,6 +161,38 @@ typedef struct keel_mounting {
         }                                                                                          \
     }
 
+/** The kinds of inertial units that have a driver. */
+typedef enum keel_inertial_kind {
+    KEEL_INERTIAL_ICM20689 = 0,
+    KEEL_INERTIAL_ICM20602 = 1,
+    KEEL_INERTIAL_BMI055 = 2,
+    KEEL_INERTIAL_ICM42688 = 3
+} keel_inertial_kind_t;
+
+/** Inertial units of a board, at most. */
+#define KEEL_CHIP_INERTIAL_UNITS 3u
+
+/** An inertial unit at SPI 1. */
+typedef struct keel_board_inertial {
+    keel_inertial_kind_t kind;
+    keel_pin_t select;               /**< Of the BMI055, its gyroscope's. */
+    keel_pin_t accelerometer_select; /**< Of the BMI055; of the others, select again. */
+    keel_mounting_t mounting;
+} keel_board_inertial_t;
+
+/**
+ * An inertial unit: its kind, the port and pin of its chip select, and its mounting.
+ * `make check NAME=registers` holds it against specs/outputs.toml.
+ */
+#define KEEL_INERTIAL(kind, letter, number, x, y, z)                                               \
+    {KEEL_INERTIAL_##kind, KEEL_PIN(letter, number), KEEL_PIN(letter, number),                     \
+     KEEL_MOUNTING(x, y, z)}
+
+/** The same of a BMI055, with two selects: the gyroscope's, and the accelerometer's. */
+#define KEEL_INERTIAL_PAIR(kind, letter, number, other, another, x, y, z)                          \
+    {KEEL_INERTIAL_##kind, KEEL_PIN(letter, number), KEEL_PIN(other, another),                     \
+     KEEL_MOUNTING(x, y, z)}
+
 /** What a board says about itself. */
 typedef struct keel_board_pins {
     keel_oscillator_t oscillator;
@@ -173,15 +206,15 @@ typedef struct keel_board_pins {
     const keel_level_t *levels;       /**< Supplies and what else has one level; null: none. */
     uint32_t level_count;
     const keel_pin_t *armed; /**< Low while outputs are armed, else held high; null: none. */
-    keel_alternate_t sck;    /**< SPI 1, with the sensor. */
+    keel_alternate_t sck;    /**< SPI 1, with the inertial units. */
     keel_alternate_t miso;
     keel_alternate_t mosi;
-    keel_pin_t sensor_select;
-    const keel_pin_t *deselect; /**< Other devices on the bus, which must stay silent. */
+    const keel_board_inertial_t *inertial; /**< In the order of the vote. */
+    uint32_t inertial_count;               /**< 1 to KEEL_CHIP_INERTIAL_UNITS. */
+    const keel_pin_t *deselect;            /**< Other devices on the bus, which must stay silent. */
     uint32_t deselect_count;
     const keel_analogue_t *analogue;      /**< By keel_analogue_name_t; null: none. */
     uint32_t analogue_count;              /**< KEEL_ANALOGUES, or 0. */
-    keel_mounting_t mounting;             /**< Of the sensor. */
     const keel_board_card_t *card;        /**< Null: no slot. */
     const keel_board_device_t *memory;    /**< FM25V02 at SPI 2; null: none. */
     const keel_board_device_t *barometer; /**< MS5611 at SPI 4; null: none. */
@@ -200,30 +233,56 @@ extern const keel_board_pins_t keel_board_pins;
  */
 void keel_chip_led(keel_led_name_t name, bool on);
 
+/** How many inertial units the board says that it has, 1 to KEEL_CHIP_INERTIAL_UNITS. */
+uint32_t keel_chip_inertial_count(void);
+
+/** Starts the bus of the inertial units; takes 20 ms. To be called once, before all of them. */
+void keel_chip_inertial_begin(void);
+
 /**
- * Starts the inertial sensor; takes some 110 ms.
+ * Starts an inertial unit; takes some 110 ms.
  *
- * @return as keel_invensense_start, or KEEL_BSP_ARGUMENT when the bus cannot be slow enough
+ * @param number 0 to keel_chip_inertial_count() - 1
+ * @return as its driver's start: keel_invensense_start, keel_bmi055_start or keel_icm42688_start;
+ *         KEEL_BSP_ARGUMENT when the board has no such unit
  */
-keel_bsp_status_t keel_chip_sensor_start(void);
+keel_bsp_status_t keel_chip_inertial_start(uint32_t number);
 
-/** The inertial sensor, an ICM-20689, after keel_chip_sensor_start. */
-keel_invensense_t *keel_chip_sensor(void);
+/**
+ * Reads a sample of an inertial unit, in the unit's own axes.
+ *
+ * @param number 0 to keel_chip_inertial_count() - 1, of one that was started
+ * @param sample the sample; as it was unless KEEL_BSP_OK
+ * @return as its driver's read; KEEL_BSP_ARGUMENT when the board has no such unit
+ */
+keel_bsp_status_t keel_chip_inertial_read(uint32_t number, keel_inertial_sample_t *sample);
 
-/** A sample of the sensor in body axes (forward, right, down). */
+/** A sample of an inertial unit in body axes (forward, right, down). */
 typedef struct keel_chip_motion {
     float force[3];           /**< Specific force, in m/s^2. */
     float rate[3];            /**< In rad/s. */
-    int16_t temperature_cdeg; /**< Of the sensor, in hundredths of a degree Celsius. */
+    int16_t temperature_cdeg; /**< Of the unit, in hundredths of a degree Celsius. */
 } keel_chip_motion_t;
 
 /**
- * Reads the sensor and turns the sample as the board has mounted it.
+ * Reads an inertial unit and turns the sample as the board has mounted it.
  *
+ * @param number as keel_chip_inertial_read
  * @param motion the sample; as it was unless KEEL_BSP_OK
- * @return as keel_invensense_read
+ * @return as keel_chip_inertial_read
  */
-keel_bsp_status_t keel_chip_motion(keel_chip_motion_t *motion);
+keel_bsp_status_t keel_chip_motion(uint32_t number, keel_chip_motion_t *motion);
+
+/**
+ * Turns three values of a sensor as it is mounted.
+ *
+ * @param mounting the sensor's
+ * @param sensor   counts along the sensor's axes
+ * @param unit     what a count is
+ * @param body     the values along forward, right and down
+ */
+void keel_mounting_turn(const keel_mounting_t *mounting, const int16_t sensor[3], float unit,
+                        float body[3]);
 
 /**
  * Starts the bus of the board's barometer, an MS5611. To be called once, 20 ms after the start.

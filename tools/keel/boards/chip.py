@@ -4,18 +4,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import partial
 
 from keel.base.errors import ToolError
+from keel.boards.bmi055 import ACCELEROMETER_ID, GYROSCOPE_ID, Bmi055Part
 from keel.boards.card import CardError, CardHost, SdCard
 from keel.boards.fram import Fram
+from keel.boards.icm20689 import IDENTITY, OTHER, Icm20689
 from keel.boards.ms5611 import Ms5611
 from keel.boards.pulses import Outputs, PulseError, State, timers
+from keel.boards.spi import DATA, SPI1, SPI2, SPI4, Device, Registers, SpiError, Spis
+from keel.boards.wiring import BMI055, UART7, USART3, Wiring
 
 # Bases of the peripherals (RM0410, table 1).
-TIM5, IWDG, USART3, PWR, UART7 = 0x4000_0C00, 0x4000_3000, 0x4000_4800, 0x4000_7000, 0x4000_7800
-TIM1, SPI1, GPIOA, RCC, FLASHR = 0x4001_0000, 0x4001_3000, 0x4002_0000, 0x4002_3800, 0x4002_3C00
-SPI2, SPI4, TIM4, TIM12 = 0x4000_3800, 0x4001_3400, 0x4000_0800, 0x4000_1800
+TIM5, IWDG, PWR, TIM1, TIM4 = 0x4000_0C00, 0x4000_3000, 0x4000_7000, 0x4001_0000, 0x4000_0800
+GPIOA, RCC, FLASHR, TIM12 = 0x4002_0000, 0x4002_3800, 0x4002_3C00, 0x4000_1800
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
 ADC1, ADC_COMMON, SDMMC1 = 0x4001_2000, 0x4001_2300, 0x4001_2C00
 BLOCKS = {
@@ -70,14 +74,11 @@ OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
 FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
 CORE_MHZ = 216
-BROKEN = ("hse", "pll", "overdrive", "sensor", "other-sensor", "adc", "memory", "barometer")
+SENSORS = ("sensor", "other-sensor", "second-sensor")  # Without the first, or another, …
+BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", *SENSORS)
 
 
-# Its memory at SPI 2: clock and data, and the select.
-FRAM_PINS, FRAM_SELECT = ((8, 1), (8, 2), (8, 3)), (5, 5)
-# Its barometer at SPI 4: the same.
-BAROMETER_PINS, BAROMETER_SELECT = ((4, 2), (4, 13), (4, 6)), (5, 10)
-# And its card's slot: clock, command and data, by port and pin, and what switches its supply.
+# A card's slot: clock, command and data, by port and pin, and what switches its supply.
 CARD_PINS, CARD_POWER = ((2, 12), (3, 2), (2, 8), (2, 9), (2, 10), (2, 11)), (6, 7)
 
 
@@ -85,53 +86,6 @@ class ModelError(ToolError):
     """The image did what must not be; the message says what and where."""
 
     status = 1
-
-
-@dataclass
-class Sensor:
-    """An ICM-20689 on the SPI: its registers, and where it is in an exchange."""
-
-    identity: int = 0x98
-    there: bool = True
-    registers: bytearray = field(default_factory=lambda: bytearray(128))
-    selected: bool = False
-    address: int = -1
-    samples: int = 0
-
-    def select(self, selected: bool) -> None:
-        self.selected = selected
-        self.address = -1
-
-    def exchange(self, byte: int) -> int:
-        """One byte each way."""
-        if not self.selected or not self.there:
-            return 0xFF
-        if self.address < 0:
-            self.address = byte
-            return 0
-        place = self.address & 0x7F
-        answer = self._read(place)
-        if not self.address & 0x80:
-            self._write(place, byte)
-        self.address = (self.address & 0x80) | ((place + 1) & 0x7F)
-        return answer
-
-    def _read(self, place: int) -> int:
-        if place == 0x75:
-            return self.identity
-        if place == 0x3B:  # A new sample with each burst: 1 g on the third axis, turning slowly.
-            self.samples += 1
-            values = (0, 0, 2048, 327, self.samples & 0x7F, 0, 1)
-            data = b"".join(value.to_bytes(2, "big") for value in values)
-            self.registers[0x3B : 0x3B + 14] = data
-        return self.registers[place]
-
-    def _write(self, place: int, value: int) -> None:
-        if place == 0x6B and value & 0x80:
-            self.registers[:] = bytes(128)
-            self.registers[0x6B] = 0x40
-        else:
-            self.registers[place] = value
 
 
 # What the maker counted: the reference at 3.3 V, the temperature at 30 and at 110 degrees.
@@ -163,14 +117,13 @@ class Converter:
 class Chip:
     """The chip around the processor."""
 
-    def __init__(
-        self, console: int, select: tuple[int, int], broken: str = "", outputs: Sequence[str] = ()
-    ) -> None:
-        self.console = console
-        self.select = select  # Port and pin of the sensor's chip select.
+    def __init__(self, wiring: Wiring, broken: str = "", outputs: Sequence[str] = ()) -> None:
+        self.console = wiring.console
         self.broken = broken
-        identity = 0x12 if broken == "other-sensor" else 0x98
-        self.sensor = Sensor(identity, there=broken != "sensor")
+        identity = OTHER if broken == "other-sensor" else IDENTITY
+        self.sensor = Icm20689(identity, there=broken != "sensor")
+        self.gyroscope = Bmi055Part(GYROSCOPE_ID, there=broken != "second-sensor")
+        self.accelerometer = Bmi055Part(ACCELEROMETER_ID, there=broken != "second-sensor")
         self.step_us = 1  # By how much a reading of the time base moves time on.
         self.time_us = 0
         self.text = ""
@@ -184,6 +137,13 @@ class Chip:
         self.exception = 0
         self.fram = Fram(there=broken != "memory")
         self.barometer = Ms5611(there=broken != "barometer")
+        devices: dict[str, Device] = {
+            "ICM-20689": self.sensor,
+            "memory": self.fram,
+            "barometer": self.barometer,
+            **dict(zip(BMI055, (self.gyroscope, self.accelerometer), strict=True)),
+        }
+        self.spis = Spis(wiring.buses, [(seat, devices[seat.name]) for seat in wiring.seats])
         self.card: SdCard | None = None  # In the slot.
         self.slot = CardHost()
         self.words: dict[int, int] = {}
@@ -204,14 +164,12 @@ class Chip:
         self.watchdog_us = 0  # Its time-out; 0: it does not run.
         self.fed_us = self.time_us
         self.counter_from_us = 0
-        self.sensor.select(False)
-        self.fram.select(False)
-        self.barometer.select(False)
+        self.spis.reset()
         self.adc = Converter()
         self.slot = CardHost(self.card)
         self.flash_is_open = False
         self.unlocking_flash = []
-        self.high: set[tuple[int, int]] = set()  # Pins that were set.
+        self.high: dict[tuple[int, int], int] = {}  # Pins that were set, with when.
         self.outputs.reset(self.time_us)
 
     def tick(self, us: int) -> None:
@@ -270,9 +228,7 @@ class Chip:
             RCC: self._rcc,
             PWR: self._pwr,
             IWDG: self._iwdg,
-            SPI1: self._spi,
-            SPI2: self._spi2,
-            SPI4: self._spi4,
+            **{spi: partial(self._spi, spi) for spi in (SPI1, SPI2, SPI4)},
             TIM1: self._tim1,
             TIM5: self._tim5,
             self.console: self._uart,
@@ -309,6 +265,7 @@ class Chip:
         return word | flag if word & control and not broken else word & ~flag
 
     def _rcc(self, offset: int, value: int) -> None:
+        self.spis.changed()
         if offset == 0:
             word = self._follow(value, 1, 2, False)
             word = self._follow(word, 1 << 16, 1 << 17, self.broken == "hse")
@@ -403,52 +360,21 @@ class Chip:
             self.watchdog_us = (self.words[IWDG + 8] + 1) * divisor * 1000 // 32
             self.fed_us = self.time_us
 
-    def _spi(self, offset: int, value: int) -> None:
-        if offset == 0xC:
-            self._exchange(SPI1, self.sensor.exchange, value)
+    def _spi(self, base: int, offset: int, value: int) -> None:
+        if offset != DATA:
+            self.spis.changed()
+            return
+        registers = Registers(self.words, self.high, self._function_of, self._is_output)
+        try:
+            self.words[base + DATA] = self.spis.exchange(
+                base, value & 0xFF, self.time_us, registers
+            )
+        except SpiError as error:
+            raise ModelError(str(error)) from error
+        self.words[base + 8] |= 1
 
-    def _spi2(self, offset: int, value: int) -> None:
-        """The memory, of 40 MHz at most."""
-        if offset == 0xC:
-            clock = bool(self.words.get(RCC + 0x40, 0) & 1 << 14)
-            self._check_bus("memory", SPI2, FRAM_PINS, clock, 54, 40)
-            self._exchange(SPI2, lambda byte: self.fram.exchange(byte), value)
-
-    def _spi4(self, offset: int, value: int) -> None:
-        """The barometer, of 20 MHz at most."""
-        if offset == 0xC:
-            clock = bool(self.words.get(RCC + 0x44, 0) & 1 << 13)
-            self._check_bus("barometer", SPI4, BAROMETER_PINS, clock, 108, 20)
-            self._exchange(SPI4, lambda byte: self.barometer.exchange(byte, self.time_us), value)
-
-    def _exchange(self, spi: int, exchange: Callable[[int], int], value: int) -> None:
-        if not self.words.get(spi, 0) & 0x40:
-            raise ModelError("a byte is sent while the SPI is off")
-        self.words[spi + 0xC] = exchange(value & 0xFF)
-        self.words[spi + 8] |= 1
-
-    def _check_bus(
-        self,
-        device: str,
-        spi: int,
-        pins: Sequence[tuple[int, int]],
-        clock: bool,
-        bus_mhz: int,
-        limit_mhz: int,
-    ) -> None:
-        """What must hold around an SPI when a byte goes to its only device."""
-        control = self.words.get(spi, 0)
-        rate_mhz = bus_mhz / (2 << (control >> 3 & 7))
-        rules = {
-            "its bus has no clock": clock,
-            "a pin is not its own": all(self._function_of(pin) == 5 for pin in pins),
-            f"at {rate_mhz:g} MHz": rate_mhz <= limit_mhz,
-            "not in mode 0 or 3": control & 3 in (0, 3),
-            "not of eight bits": self.words.get(spi + 4, 0) >> 8 & 0xF == 7,
-        }
-        for reason, held in rules.items():
-            if not held:
-                raise ModelError(f"a byte goes to the {device}, but {reason}")
+    def _is_output(self, pin: tuple[int, int]) -> bool:
+        return self.words.get(GPIOA + 0x400 * pin[0], 0) >> 2 * pin[1] & 3 == 1
 
     def _function_of(self, pin: tuple[int, int]) -> int | None:
         """Which alternate function a pin has; None when it has none."""
@@ -477,16 +403,16 @@ class Chip:
 
     def _gpio(self, port: int, offset: int, value: int) -> None:
         if offset != 0x18:
+            self.spis.changed()
             return
-        self.high -= {(port, bit) for bit in range(16) if value >> 16 >> bit & 1}
-        self.high |= {(port, bit) for bit in range(16) if value >> bit & 1}
-        for device, (number, pin) in (
-            (self.sensor, self.select),
-            (self.fram, FRAM_SELECT),
-            (self.barometer, BAROMETER_SELECT),
-        ):
-            if port == number and value >> pin & 0x1_0001:
-                device.select(bool(value >> 16 >> pin & 1))
+        for bit in range(16):
+            pin = (port, bit)
+            if value >> bit & 1:
+                self.high.setdefault(pin, self.time_us)
+                self.spis.select(pin, False)
+            elif value >> 16 >> bit & 1:
+                self.high.pop(pin, None)
+                self.spis.select(pin, True)
 
     # The slot.
 

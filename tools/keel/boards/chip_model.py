@@ -32,15 +32,14 @@ from keel.base.errors import ROOT, ToolError, program, unknown
 from keel.base.files import write_bytes, write_json
 from keel.boards.built import read_built
 from keel.boards.card import SdCard
-from keel.boards.chip import BROKEN, OPTIONS, UART7, USART3, Chip
+from keel.boards.chip import BROKEN, OPTIONS, Chip
 from keel.boards.fram import Fram
 from keel.boards.processor import Processor
 from keel.boards.sockets import read_sockets
+from keel.boards.wiring import WIRINGS
 from keel.install import Toolchain
 
 REPORT = "build/model"
-# The console, and port and pin of the sensor's chip select.
-CONSOLES = {"nucleo_f767zi": (USART3, (3, 14)), "fmuv5": (UART7, (5, 2))}
 
 
 def simulate(
@@ -56,11 +55,11 @@ def simulate(
     fram: Fram | None = None,
 ) -> Chip:
     """Run a board's image; the chip afterwards. Longer steps make a shorter, coarser run."""
-    if name not in CONSOLES:
-        raise ToolError(unknown("model", name, CONSOLES))
+    if name not in WIRINGS:
+        raise ToolError(unknown("model", name, WIRINGS))
     image = read_built(root, name)
     # The sockets' order is told by others than the board's table, and does not come with its image.
-    chip = Chip(*CONSOLES[name], broken, read_sockets(ROOT)[name].outputs)
+    chip = Chip(WIRINGS[name], broken, read_sockets(ROOT)[name].outputs)
     chip.keys = sorted(keys)
     chip.step_us = step_us
     chip.options = options

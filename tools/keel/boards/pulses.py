@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -134,7 +134,9 @@ class Outputs:
         self.log: list[list[tuple[float, State]]] = [[] for _ in names]
         self.due_us: float | None = None  # When a timer takes pulses over.
 
-    def state(self, words: Mapping[int, int], high: set[tuple[int, int]], number: int) -> State:
+    def state(
+        self, words: Mapping[int, int], high: Collection[tuple[int, int]], number: int
+    ) -> State:
         """What an output does now."""
         port, pin = self.pins[number]
         base = GPIOA + 0x400 * port
@@ -154,7 +156,7 @@ class Outputs:
         self,
         time_us: float,
         words: Mapping[int, int],
-        high: set[tuple[int, int]],
+        high: Collection[tuple[int, int]],
         at_period: bool = False,
     ) -> None:
         """Writes down what has changed; only a new period begins pulses."""

@@ -13,7 +13,8 @@ from keel.config import Table, Text, read_toml
 SOCKETS = "specs/outputs.toml"
 PINS = "bsp/*/pins.c"
 OUTPUT_LINE = re.compile(r"KEEL_OUTPUT\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
-MOUNTING_LINE = re.compile(r"KEEL_MOUNTING\((-?\d), (-?\d), (-?\d)\)")
+AXES = r"(-?\d), (-?\d), (-?\d)\)"
+INERTIAL_LINE = re.compile(r"KEEL_INERTIAL(?:_PAIR)?\((\w+), ((?:\w, \d+u, )+)" + AXES)
 ARMED_LINE = re.compile(r"KEEL_ARMED\((\w), (\d+)u\)")
 LEVEL_LINE = re.compile(r"KEEL_LEVEL\((\w), (\d+)u, (true|false)\)")
 
@@ -23,7 +24,7 @@ class Sockets(Table):
 
     name: Text
     source: Text
-    mounting: list[int]
+    inertial: list[Text]
     outputs: list[Text]
     levels: list[Text]
     armed: Text | None = None
@@ -50,22 +51,43 @@ def pin_of(text: str) -> tuple[int, int]:
     return ord(text[1]) - ord("A"), int(text[2:])
 
 
-def stated(text: str) -> tuple[list[str], list[str]]:
-    """The outputs and the levels of a pin table."""
-    outputs = [
-        f"P{port}{number} {timer}_{channel}"
-        for port, number, timer, channel in OUTPUT_LINE.findall(text)
-    ]
-    levels = [
-        f"P{port}{number} {'high' if high == 'true' else 'low'}"
-        for port, number, high in LEVEL_LINE.findall(text)
-    ]
-    return outputs, levels
+def pins_in(text: str) -> list[str]:
+    """Pins as PE14, of letters and numbers as a pin table has them."""
+    return [f"P{port}{number}" for port, number in re.findall(r"(\w), (\d+)u", text)]
+
+
+def stated(text: str) -> dict[str, list[str]]:
+    """What a pin table says, by the names of specs/outputs.toml."""
+    return {
+        "inertial": [
+            " ".join([kind, *pins_in(pins), *axes])
+            for kind, pins, *axes in INERTIAL_LINE.findall(text)
+        ],
+        "outputs": [
+            f"P{port}{number} {timer}_{channel}"
+            for port, number, timer, channel in OUTPUT_LINE.findall(text)
+        ],
+        "levels": sorted(
+            f"P{port}{number} {'high' if high == 'true' else 'low'}"
+            for port, number, high in LEVEL_LINE.findall(text)
+        ),
+        "armed": [f"P{port}{number}" for port, number in ARMED_LINE.findall(text)],
+    }
+
+
+def expected(board: Sockets) -> dict[str, list[str]]:
+    """The same, as others say it. The order of levels means nothing, that of outputs is that of the
+    motors."""
+    return {
+        "inertial": board.inertial,
+        "outputs": board.outputs,
+        "levels": sorted(board.levels),
+        "armed": [board.armed] if board.armed else [],
+    }
 
 
 def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
-    """Each pin table, how much of it was compared, and what is not as others say. The order of
-    levels means nothing, that of outputs is that of the motors."""
+    """Each pin table, how much of it was compared, and what is not as others say."""
     known = read_sockets(root)
     for path in sorted(root.glob(PINS)):
         where = path.relative_to(root).as_posix()
@@ -73,24 +95,12 @@ def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
         if board is None:
             yield where, 0, [f"{where}: {SOCKETS} does not have this board"]
             continue
-        text = read_text(path)
-        outputs, levels = stated(text)
-        wrong = []
-        mounted = [[int(axis) for axis in found] for found in MOUNTING_LINE.findall(text)]
-        if mounted != [board.mounting]:
-            wrong.append(f"{where}: mounting {mounted}; {SOCKETS} has {board.mounting}")
-        if outputs != board.outputs:
-            wrong.append(
-                f"{where}: outputs {', '.join(outputs)}; {SOCKETS} has {', '.join(board.outputs)}"
-            )
-        if sorted(levels) != sorted(board.levels):
-            wrong.append(
-                f"{where}: levels {', '.join(sorted(levels))}; {SOCKETS} has "
-                f"{', '.join(sorted(board.levels))}"
-            )
-        armed = [f"P{port}{number}" for port, number in ARMED_LINE.findall(text)]
-        if armed != ([board.armed] if board.armed else []):
-            wrong.append(f"{where}: armed {', '.join(armed)}; {SOCKETS} has {board.armed}")
-        yield where, len(outputs) + len(levels) + len(mounted) + len(armed), wrong
+        others, own = expected(board), stated(read_text(path))
+        wrong = [
+            f"{where}: {key} {', '.join(own[key])}; {SOCKETS} has {', '.join(others[key])}"
+            for key in others
+            if own[key] != others[key]
+        ]
+        yield where, sum(map(len, own.values())), wrong
     for name in known:
         yield SOCKETS, 0, [f"{SOCKETS}: {name}: there is no bsp/{name}/pins.c"]

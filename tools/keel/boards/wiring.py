@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is joined to what on the boards whose chip is modelled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from keel.boards.spi import SPI1, SPI2, SPI4, Bus, Pin, Seat
+
+RCC = 0x4002_3800
+APB1ENR, APB2ENR = RCC + 0x40, RCC + 0x44
+USART3, UART7 = 0x4000_4800, 0x4000_7800
+
+Pins = tuple[Pin, Pin, Pin]  # Clock, from the device, to the device.
+SENSORS_ON: Pin = (4, 3)  # PE3: 3.3 V of an FMUv5's sensors.
+
+
+def spi1(pins: Pins) -> Bus:
+    return Bus(SPI1, pins, (APB2ENR, 12), 108)
+
+
+# The limits of the buses, and what a unit needs after its supply, are the data sheets'.
+ICM20689 = ("ICM-20689", 8.0, 11_000)
+BMI055 = {"BMI055's gyroscope": ((5, 4), 10.0), "BMI055's accelerometer": ((6, 10), 10.0)}
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """A board around the chip."""
+
+    console: int
+    buses: tuple[Bus, ...]
+    seats: tuple[Seat, ...]
+
+
+def icm20689(select: Pin, supply: Pin | None) -> Seat:
+    name, limit_mhz, ready_us = ICM20689
+    return Seat(name, SPI1, select, limit_mhz, supply, ready_us)
+
+
+WIRINGS = {
+    "nucleo_f767zi": Wiring(USART3, (spi1(((0, 5), (0, 6), (0, 7))),), (icm20689((3, 14), None),)),
+    "fmuv5": Wiring(
+        UART7,
+        (
+            spi1(((6, 11), (0, 6), (3, 7))),
+            Bus(SPI2, ((8, 1), (8, 2), (8, 3)), (APB1ENR, 14), 54),
+            Bus(SPI4, ((4, 2), (4, 13), (4, 6)), (APB2ENR, 13), 108),
+        ),
+        (
+            icm20689((5, 2), SENSORS_ON),
+            *(
+                Seat(name, SPI1, select, limit_mhz, SENSORS_ON, 3_000)
+                for name, (select, limit_mhz) in BMI055.items()
+            ),
+            Seat("memory", SPI2, (5, 5), 40.0),
+            Seat("barometer", SPI4, (5, 10), 20.0, SENSORS_ON),
+        ),
+    ),
+}
