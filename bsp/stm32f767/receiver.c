@@ -153,8 +153,8 @@ static void take_bytes(keel_receiver_t *receiver, uint32_t came, uint32_t passed
         const uint32_t earlier_us = (behind - 1u) * receiver->byte_us;
         const uint32_t at_us = (earlier_us < passed_us) ? (passed_us - earlier_us) : 0u;
 
-        receiver->elapsed_us[receiver->head % KEEL_RECEIVER_CAPACITY] =
-            sum_us(receiver->quiet_us, at_us - before_us);
+        receiver->elapsed_us[receiver->head % KEEL_RECEIVER_CAPACITY] = sum_us(receiver->quiet_us,
+                                                                               at_us - before_us);
         receiver->head++;
         receiver->quiet_us = 0u;
         before_us = at_us;

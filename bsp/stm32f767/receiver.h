@@ -104,7 +104,7 @@ typedef struct keel_receiver_byte {
 
 /**
  * Starts a receiver, or starts it anew, with another line say: what was unread is forgotten, and
- * counts begin at 0 (requirements REC-001 to REC-004). A receiver that was started already must
+ * counts begin at 0 (requirements REC-001 to REC-003). A receiver that was started already must
  * have the same UART and stream.
  *
  * @param receiver the receiver
@@ -120,7 +120,7 @@ keel_bsp_status_t keel_receiver_start(keel_receiver_t *receiver,
 
 /**
  * Looks at the bytes and errors that came: to be called in every turn of the main loop, and before
- * a task reads when turns may take long (requirements REC-005 to REC-009). Never waits.
+ * a task reads when turns may take long (requirements REC-004 to REC-007). Never waits.
  *
  * When more than KEEL_RECEIVER_TRUSTED bytes may have come since the last look, or are unread,
  * some may be overwritten. Then all are forgotten, and elapsed_us of the next byte tells the gap.
@@ -131,7 +131,7 @@ keel_bsp_status_t keel_receiver_start(keel_receiver_t *receiver,
 void keel_receiver_turn(keel_receiver_t *receiver, uint32_t now_us);
 
 /**
- * Reads the next byte that a look found; never waits (requirement REC-010).
+ * Reads the next byte that a look found; never waits (requirement REC-008).
  *
  * @param receiver the receiver, started
  * @param byte     the byte
@@ -140,7 +140,7 @@ void keel_receiver_turn(keel_receiver_t *receiver, uint32_t now_us);
 bool keel_receiver_read(keel_receiver_t *receiver, keel_receiver_byte_t *byte);
 
 /**
- * Sends a byte if the line takes one; never waits, and keeps none (requirement REC-011).
+ * Sends a byte if the line takes one; never waits, and keeps none (requirement REC-009).
  *
  * @param receiver the receiver, started
  * @param value    the byte
