@@ -22,29 +22,22 @@ const keel_line_t keel_line_sbus = {100000u, true, true, true};
 const keel_line_t keel_line_crsf = {420000u, false, false, false};
 const keel_line_t keel_line_115200 = {115200u, false, false, false};
 
-/* Where the flags of a stream begin in their register (RM0410, 8.5.1). */
-static const uint32_t flag_places[STREAMS_A_WORD] = {0u, 6u, 16u, 22u};
-
 static keel_dma_stream_t *stream_of(const keel_receiver_config_t *config)
 {
     return &config->dma->stream[config->stream];
 }
 
-/* A flag of stream 0, for the stream. */
+/* Flags of stream 0, where the stream has them in its register (RM0410, 8.5.1). */
 static uint32_t flags_of(const keel_receiver_config_t *config, uint32_t flags)
 {
+    static const uint32_t flag_places[STREAMS_A_WORD] = {0u, 6u, 16u, 22u};
+
     return flags << flag_places[config->stream % STREAMS_A_WORD];
 }
 
-/* An address as DMA takes it. */
-static uint32_t address_of(const volatile void *place)
+static uint32_t saturated_sum(uint32_t a, uint32_t b)
 {
-    return (uint32_t)(uintptr_t)place;
-}
-
-static uint32_t sum_us(uint32_t a_us, uint32_t b_us)
-{
-    return (a_us > (UINT32_MAX - b_us)) ? UINT32_MAX : (a_us + b_us);
+    return (a > (UINT32_MAX - b)) ? UINT32_MAX : (a + b);
 }
 
 /* The time of so many bytes, to the nearest microsecond. */
@@ -85,8 +78,8 @@ static void begin_stream(keel_receiver_t *receiver)
     receiver->head = 0u;
     receiver->tail = 0u;
     clear_flags(config);
-    stream->PAR = address_of(&config->uart->RDR);
-    stream->M0AR = address_of(receiver->ring);
+    stream->PAR = (uint32_t)(uintptr_t)&config->uart->RDR;
+    stream->M0AR = (uint32_t)(uintptr_t)&receiver->ring[0];
     stream->NDTR = KEEL_RECEIVER_CAPACITY;
     stream->FCR = 0u; /* Direct mode. */
     stream->CR = FIELD(DMA_CR0_CHSEL, config->channel) | FIELD(DMA_CR0_PL, PRIORITY) |
@@ -153,35 +146,37 @@ static void take_bytes(keel_receiver_t *receiver, uint32_t came, uint32_t passed
         const uint32_t earlier_us = (behind - 1u) * receiver->byte_us;
         const uint32_t at_us = (earlier_us < passed_us) ? (passed_us - earlier_us) : 0u;
 
-        receiver->elapsed_us[receiver->head % KEEL_RECEIVER_CAPACITY] = sum_us(receiver->quiet_us,
-                                                                               at_us - before_us);
+        receiver->elapsed_us[receiver->head % KEEL_RECEIVER_CAPACITY] =
+            saturated_sum(receiver->quiet_us, at_us - before_us);
         receiver->head++;
         receiver->quiet_us = 0u;
         before_us = at_us;
     }
-    receiver->quiet_us = sum_us(receiver->quiet_us, passed_us - before_us);
+    receiver->quiet_us = saturated_sum(receiver->quiet_us, passed_us - before_us);
 }
 
 /* What is unread is forgotten, but for its time: the next byte tells it, as it tells of a gap. */
 static void forget_bytes(keel_receiver_t *receiver, uint32_t came, uint32_t passed_us)
 {
-    receiver->quiet_us = sum_us(receiver->quiet_us, passed_us);
+    receiver->quiet_us = saturated_sum(receiver->quiet_us, passed_us);
     while (receiver->tail != receiver->head) {
-        receiver->quiet_us = sum_us(receiver->quiet_us,
-                                    receiver->elapsed_us[receiver->tail % KEEL_RECEIVER_CAPACITY]);
+        receiver->quiet_us = saturated_sum(
+            receiver->quiet_us, receiver->elapsed_us[receiver->tail % KEEL_RECEIVER_CAPACITY]);
         receiver->tail++;
     }
     receiver->head += came;
     receiver->tail = receiver->head;
 }
 
+/* DMA counts a byte some cycles before it lies in the ring. None is read so early: a look goes on to
+ * other registers of peripherals before anybody reads. */
 static void look_at_ring(keel_receiver_t *receiver, uint32_t passed_us)
 {
     const uint32_t place = KEEL_RECEIVER_CAPACITY - stream_of(&receiver->config)->NDTR;
     const uint32_t came = (place - receiver->head) % KEEL_RECEIVER_CAPACITY;
     const uint32_t unread = (receiver->head - receiver->tail) + came;
 
-    receiver->count.bytes = sum_us(receiver->count.bytes, came);
+    receiver->count.bytes = saturated_sum(receiver->count.bytes, came);
     if ((passed_us > receiver->trusted_us) || (unread > KEEL_RECEIVER_TRUSTED)) {
         receiver->count.laps = keel_progress_next(receiver->count.laps);
         forget_bytes(receiver, came, passed_us);
