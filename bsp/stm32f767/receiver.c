@@ -168,8 +168,8 @@ static void forget_bytes(keel_receiver_t *receiver, uint32_t came, uint32_t pass
     receiver->tail = receiver->head;
 }
 
-/* DMA counts a byte some cycles before it lies in the ring. None is read so early: a look goes on to
- * other registers of peripherals before anybody reads. */
+/* DMA counts a byte some cycles before it lies in the ring. None is read so early: a look goes on
+ * to other registers of peripherals before anybody reads. */
 static void look_at_ring(keel_receiver_t *receiver, uint32_t passed_us)
 {
     const uint32_t place = KEEL_RECEIVER_CAPACITY - stream_of(&receiver->config)->NDTR;

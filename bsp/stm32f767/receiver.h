@@ -40,7 +40,7 @@
 /** The lowest rate of a line, in bits per second. */
 #define KEEL_RECEIVER_BAUD_MIN 300u
 
-/** The bits of a line. A byte is a start bit, 8 data bits, the parity if there is one, and stops. */
+/** The bits of a line: for a byte a start bit, 8 data bits, the parity if there is one, stops. */
 typedef struct keel_line {
     uint32_t baud;    /**< Bits per second, at least KEEL_RECEIVER_BAUD_MIN. */
     bool even_parity; /**< Behind the data; else there is none. */

@@ -23,7 +23,7 @@ STOPS, RXINV, DMAR = 3 << 12, 1 << 16, 1 << 6
 SWITCHES = UE | RE | TE  # The rest of CR1 is of the bits, as are CR2 and BRR.
 # Flags of the UART.
 PE, FE, NF, ORE, RXNE, TC, TXE = (1 << i for i in (0, 1, 2, 3, 5, 6, 7))
-# A stream: on, and what a ring of bytes needs: to memory, byte by byte, one address behind the other.
+# A stream: on, and what a ring of bytes needs: to memory, byte by byte, one behind the other.
 EN, CIRC, MINC = 1, 1 << 8, 1 << 10
 MODE = 0x0004_7FE0  # Double buffer, sizes, increments, circular, direction, who controls the flow.
 HALF, COMPLETE = 1 << 4, 1 << 5
