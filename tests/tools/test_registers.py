@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 RCC = "bsp/stm32f767/registers/rcc.h"
 UART = "bsp/stm32f767/registers/uart.h"
+DMA = "bsp/stm32f767/registers/dma.h"
 
 
 class RegistersTest(unittest.TestCase):
@@ -74,6 +75,11 @@ class RegistersTest(unittest.TestCase):
     def test_a_wrong_offset_is_found(self) -> None:
         self.change(RCC, "volatile uint32_t reserved1[2];", "volatile uint32_t reserved1[3];")
         self.finds("RCC.APB1ENR", "0x40023844", "stm32ral has 0x40023840")
+
+    def test_a_wrong_offset_in_an_array_of_blocks_is_found(self) -> None:
+        self.change(DMA, "volatile uint32_t M1AR;\n", "")
+        self.finds("DMA1.FCR0", "0x40026020", "stm32ral has 0x40026024")
+        self.finds("DMA2.CR7", "0x400264", "stm32ral has 0x400264b8")
 
     def test_a_wrong_position_and_a_wrong_width_are_found(self) -> None:
         self.change(RCC, "RCC_CR_HSEON BITS(16u, 1u)", "RCC_CR_HSEON BITS(17u, 1u)")

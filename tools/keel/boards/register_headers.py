@@ -22,25 +22,47 @@ class RegistersError(ToolError):
 
 
 STRUCT = re.compile(r"typedef struct (keel_(\w+)) \{(.*?)\} keel_\w+_t;", re.DOTALL)
-MEMBER = re.compile(r"volatile uint32_t (\w+)(?:\[\d+\])?;")
+MEMBER = re.compile(
+    r"volatile uint32_t (\w+)(?:\[\d+\])?;|keel_(?P<part>\w+)_t (?P<array>\w+)\[(?P<count>\d+)\];"
+)
 DEFINE = re.compile(r"^#define (\w+) +(?!\\)(.+?)(?: */\*.*)?$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
 class Header:
-    """The names in one header: register blocks with their registers, and macros."""
+    """The names in one header: register blocks with their registers, and macros.
+
+    A block has each register with its place in C. A block that another one has an array of, such as
+    the streams of a controller, is a part of it: register CR of its third is CR2.
+    """
 
     path: str
-    blocks: dict[str, list[str]]
+    blocks: dict[str, dict[str, str]]
     macros: list[str]
+
+
+def places_of(body: str, parts: dict[str, str]) -> Iterator[tuple[str, str]]:
+    """The registers of a block with their places in C."""
+    for member in MEMBER.finditer(body):
+        if not member["part"]:
+            if "reserved" not in member[1]:
+                yield member[1], member[1]
+            continue
+        inner = dict(places_of(parts[member["part"]], parts))
+        for i in range(int(member["count"])):
+            for name, place in inner.items():
+                yield f"{name}{i}", f"{member['array']}[{i}].{place}"
 
 
 def read_header(root: Path, path: Path) -> Header:
     """The names of a header."""
     text = read_text(path)
+    bodies = {match[2]: match[3] for match in STRUCT.finditer(text)}
+    parts = {match["part"] for body in bodies.values() for match in MEMBER.finditer(body)}
     blocks = {
-        match[2].upper(): [name for name in MEMBER.findall(match[3]) if "reserved" not in name]
-        for match in STRUCT.finditer(text)
+        name.upper(): dict(places_of(body, bodies))
+        for name, body in bodies.items()
+        if name not in parts
     }
     macros = [name for name, _ in DEFINE.findall(text)]
     return Header(path.relative_to(root).as_posix(), blocks, macros)
@@ -110,8 +132,9 @@ def expression(fact: Fact, header: Header) -> str:
     """A C expression for the number of a fact."""
     if fact.kind != "register":
         return fact.name
-    block = block_of(fact.block, header).lower()
-    return f"{fact.block}_BASE + offsetof(keel_{block}_t, {fact.register})"
+    block = block_of(fact.block, header)
+    place = header.blocks[block][fact.register]
+    return f"{fact.block}_BASE + offsetof(keel_{block.lower()}_t, {place})"
 
 
 def read_headers(root: Path) -> list[Header]:
