@@ -42,14 +42,15 @@ typedef struct i2c_exchange {
     uint32_t done;  /* Bytes. */
 } i2c_exchange_t;
 
-/* How many ticks make a time full, when a few clocks of it pass anyway. */
+/* How many ticks make a time full, when a few clocks of it pass anyway: less than a tick more than it
+ * has, at the clocks that are taken. */
 static uint32_t ticks_for(i2c_ticks_t ticks, uint32_t time_ns, uint32_t clocks)
 {
     const uint64_t tick = (uint64_t)NANOSECONDS * ticks.divisor;
     const uint64_t time = ((uint64_t)time_ns * ticks.clock_hz) + (tick - 1u);
     const uint64_t passed = (uint64_t)NANOSECONDS * clocks;
 
-    return (uint32_t)(((time > passed) ? (time - passed) : 0u) / tick);
+    return (uint32_t)((time - passed) / tick);
 }
 
 /* The most ticks until data are valid; that VALID_CLOCKS are no longer than the time is known. */
