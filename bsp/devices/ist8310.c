@@ -153,8 +153,8 @@ static keel_bsp_status_t start_doing(keel_ist8310_t *sensor, uint8_t address, ui
     return KEEL_BSP_WAIT;
 }
 
-/* What is known of a sensor that was reset: the first sample is proved, and behind it the temperature
- * is read. */
+/* A sensor that is reset is not known any more: its first sample is proved, and behind it the
+ * temperature is read. */
 static keel_bsp_status_t begin_reset(keel_ist8310_t *sensor)
 {
     sensor->started = 0u;

@@ -5,13 +5,14 @@
  *
  * It is reset, known by its identity, configured, and what was written is read back. Then it
  * measures again and again, each time when it is told to, 16 times averaged. A step makes one
- * exchange: one begins a measurement, the next reads it. Whoever steps it at 100 Hz has 50 samples a
- * second, but for every tenth, behind which one more step reads back a setting, or the temperature.
+ * exchange: one begins a measurement, the next reads it. Stepped at 100 Hz, it has 50 samples a
+ * second, less those of one more step behind each tenth: that reads back a setting, or the
+ * temperature.
  *
- * After a brown-out it would go on in other units, in which the field is a quarter of what it is. So
- * the first sample, and one that is less than half as strong as the one before, is proved: it is
- * told by the step after, when the setting of its units has been read back. Such units can thus be
- * told only if the field has doubled between two samples, and for 20 samples at most.
+ * After a brown-out it would go on in other units, in which the field is a quarter of what it is.
+ * So the first sample, and one that is less than half as strong as the one before, is proved: the
+ * step after says that it is there, when the setting of its units has been read back. Samples in
+ * other units thus come only if the field has doubled between two of them, and then 20 at most.
  *
  * Every failure is told by the step that meets it; when many follow each other, or a setting is
  * lost, the sensor is reset.

@@ -42,8 +42,8 @@ typedef struct i2c_exchange {
     uint32_t done;  /* Bytes. */
 } i2c_exchange_t;
 
-/* How many ticks make a time full, when a few clocks of it pass anyway: less than a tick more than it
- * has, at the clocks that are taken. */
+/* How many ticks make a time full, when a few clocks of it pass anyway; rounded up, these are no
+ * more than it has, whatever clock is taken. */
 static uint32_t ticks_for(i2c_ticks_t ticks, uint32_t time_ns, uint32_t clocks)
 {
     const uint64_t tick = (uint64_t)NANOSECONDS * ticks.divisor;
@@ -112,8 +112,8 @@ keel_bsp_status_t keel_i2c_start(keel_i2c_t *i2c, uint32_t clock_hz)
     return KEEL_BSP_OK;
 }
 
-/* Off for three clocks of its bus at least, which reading back takes, and on again (RM0410, 33.4.6):
- * lines let go, nothing under way. Flags are cleared by that, too. */
+/* Off for three clocks of its bus at least, which reading back takes, and on again (RM0410,
+ * 33.4.6): the lines are let go, and nothing is under way. That clears the flags, too. */
 static void restart_i2c(keel_i2c_t *i2c)
 {
     i2c->CR1 &= ~I2C_CR1_PE;
@@ -186,7 +186,7 @@ static void begin_bytes(const keel_i2c_device_t *device, uint32_t count, uint32_
                        FIELD(I2C_CR2_NBYTES, count) | options | I2C_CR2_START;
 }
 
-/* Writes bytes: each is asked for when the one before was acknowledged, and a flag ends the last. */
+/* Writes bytes: each is asked for when the one before was acknowledged; a flag ends the last. */
 static keel_bsp_status_t write_bytes(i2c_exchange_t *exchange, const uint8_t *out, uint32_t count,
                                      uint32_t end)
 {

@@ -48,7 +48,7 @@ typedef struct keel_i2c_device {
 
 /**
  * The timing of fast mode: at most 400 kHz, at least 1.3 us low and 0.6 us high, for lines that
- * rise and fall in 300 ns at most, with the analogue filter (requirement I2C-001).
+ * rise and fall in 300 ns at most, with the analogue filter (requirement IIC-001).
  *
  * By RM0410, 33.4.5 and 33.4.9, with the times of UM10204, table 10. T is a clock; a tick is
  * (PRESC + 1) * T; the filter delays by 50 ns to 260 ns:
@@ -68,7 +68,7 @@ typedef struct keel_i2c_device {
 keel_bsp_status_t keel_i2c_timing(uint32_t clock_hz, uint32_t *timing);
 
 /**
- * Starts an I2C as master in fast mode, with the analogue filter (requirement I2C-002).
+ * Starts an I2C as master in fast mode, with the analogue filter (requirement IIC-002).
  *
  * @param i2c      the bus, with its clock on and its pins given to it
  * @param clock_hz its clock
@@ -78,7 +78,7 @@ keel_bsp_status_t keel_i2c_start(keel_i2c_t *i2c, uint32_t clock_hz);
 
 /**
  * Writes all bytes to a device, or writes the first and reads the others, each into its place; the
- * first place is left as it was (I2C-003 to I2C-008).
+ * first place is left as it was (IIC-003 to IIC-008).
  * As keel_bus_t's exchange; context is a keel_i2c_device_t.
  *
  * @return KEEL_BSP_OK; KEEL_BSP_TIMEOUT when all looks are used up; KEEL_BSP_BUS when the device
@@ -91,7 +91,7 @@ keel_bsp_status_t keel_i2c_bus_exchange(void *context, const uint8_t *out, uint8
 
 /**
  * Frees a bus whose data line is held: as many clocks as it takes, nine at most, and a stop
- * condition; the pins are the bus's again however it went (requirement I2C-009).
+ * condition; the pins are the bus's again however it went (requirement IIC-009).
  *
  * @param device any device on the bus
  * @return KEEL_BSP_OK, or KEEL_BSP_STUCK when a line is still low

@@ -177,17 +177,17 @@ static uint32_t ticks_of(uint32_t timing, uint32_t field, uint32_t more)
     return divisor * (keel_bits_get(timing, field) + more);
 }
 
-static void I2C_001_a_timing(void)
+static void IIC_001_a_timing(void)
 {
     uint32_t timing = 77u;
 
     /* At 54 MHz a clock is 18.52 ns. The setup time of 400 ns has 22 of them, more than the field
-     * holds, so a tick is two: setup 11, hold (250 - 55.6) / 37.04 = 5.2, 6 of at most 7; high 600 /
-     * 37.04 = 16.2, 17; a period (2400 - 74.1) / 37.04 = 62.8, 63 with a low time of 46. */
+     * holds, so a tick is two: setup 11; hold (250 - 55.6) / 37.04 = 5.2, 6 of at most 7; high
+     * 600 / 37.04 = 16.2, 17; a period (2400 - 74.1) / 37.04 = 62.8, 63 with a low time of 46. */
     TEST_ASSERT_EQUAL(KEEL_BSP_OK, keel_i2c_timing(54000000u, &timing));
     TEST_ASSERT_EQUAL_HEX32(0x10A6102Du, timing);
-    /* At 16 MHz one tick is 62.5 ns: setup 7, hold (250 - 187.5) / 62.5 = 1 of at most 1; high 10; a
-     * period (2400 - 250) / 62.5 = 34.4, 35 with a low time of 25. */
+    /* At 16 MHz one tick is 62.5 ns: setup 7; hold (250 - 187.5) / 62.5 = 1 of at most 1; high 10;
+     * a period (2400 - 250) / 62.5 = 34.4, 35 with a low time of 25. */
     TEST_ASSERT_EQUAL(KEEL_BSP_OK, keel_i2c_timing(16000000u, &timing));
     TEST_ASSERT_EQUAL_HEX32(0x00610918u, timing);
 }
@@ -212,7 +212,7 @@ static void timing_is_good(uint64_t clock_hz, uint32_t timing)
                      (25u * clocks_of_us)); /* And is no slower than that. */
 }
 
-static void I2C_001_timings_of_many_clocks(void)
+static void IIC_001_timings_of_many_clocks(void)
 {
     uint32_t fitting = 0u;
 
@@ -230,7 +230,7 @@ static void I2C_001_timings_of_many_clocks(void)
     TEST_ASSERT_GREATER_THAN_UINT32(6000u, fitting);
 }
 
-static void I2C_001_clocks_that_do_not_fit(void)
+static void IIC_001_clocks_that_do_not_fit(void)
 {
     static const uint32_t clock_hz[5] = {0u, 11764705u, 12500000u, 640000001u, UINT32_MAX};
     uint32_t timing = 77u;
@@ -243,7 +243,7 @@ static void I2C_001_clocks_that_do_not_fit(void)
     TEST_ASSERT_EQUAL(KEEL_BSP_OK, keel_i2c_timing(640000000u, &timing)); /* 256: 400 ns. */
 }
 
-static void I2C_002_a_master(void)
+static void IIC_002_a_master(void)
 {
     i2c.CR1 = 0xFFFFFFFFu;
     i2c.CR2 = i2c.OAR1 = i2c.OAR2 = i2c.TIMEOUTR = 0x8000u;
@@ -253,7 +253,7 @@ static void I2C_002_a_master(void)
     TEST_ASSERT_EQUAL_HEX32(0u, i2c.CR2 | i2c.OAR1 | i2c.OAR2 | i2c.TIMEOUTR);
 }
 
-static void I2C_002_a_clock_that_does_not_fit_changes_nothing(void)
+static void IIC_002_a_clock_that_does_not_fit_changes_nothing(void)
 {
     keel_i2c_t before;
 
@@ -288,7 +288,7 @@ static void is_ready_again(void)
     TEST_ASSERT_EQUAL_UINT32(3u, done);
 }
 
-static void I2C_003_all_bytes_are_written(void)
+static void IIC_003_all_bytes_are_written(void)
 {
     TEST_ASSERT_EQUAL(KEEL_BSP_OK, exchange(NULL, 4u));
     TEST_ASSERT_EQUAL_UINT32(4u, done);
@@ -300,7 +300,7 @@ static void I2C_003_all_bytes_are_written(void)
     TEST_ASSERT_EQUAL_HEX32(I2C_ICR_STOPCF, i2c.ICR);
 }
 
-static void I2C_003_the_longest(void)
+static void IIC_003_the_longest(void)
 {
     TEST_ASSERT_EQUAL(KEEL_BSP_ARGUMENT, exchange(NULL, 256u));
     TEST_ASSERT_EQUAL_UINT32(0u, done);
@@ -311,7 +311,7 @@ static void I2C_003_the_longest(void)
     TEST_ASSERT_EQUAL_HEX32(0u, i2c.ICR);
 }
 
-static void I2C_003_the_most_bytes(void)
+static void IIC_003_the_most_bytes(void)
 {
     static const keel_wait_t patient = {300u, advance, NULL};
     keel_i2c_device_t other = device;
@@ -322,7 +322,7 @@ static void I2C_003_the_most_bytes(void)
     TEST_ASSERT_EQUAL_MEMORY(out, taken, 255u);
 }
 
-static void I2C_004_one_byte_is_written_and_the_others_are_read(void)
+static void IIC_004_one_byte_is_written_and_the_others_are_read(void)
 {
     TEST_ASSERT_EQUAL(KEEL_BSP_OK, exchange(in, 4u));
     TEST_ASSERT_EQUAL_UINT32(4u, done);
@@ -338,7 +338,7 @@ static void I2C_004_one_byte_is_written_and_the_others_are_read(void)
     TEST_ASSERT_EQUAL_HEX32(I2C_ICR_STOPCF, i2c.ICR);
 }
 
-static void I2C_004_with_one_byte_nothing_is_read(void)
+static void IIC_004_with_one_byte_nothing_is_read(void)
 {
     TEST_ASSERT_EQUAL(KEEL_BSP_OK, exchange(in, 1u));
     TEST_ASSERT_EQUAL_UINT32(1u, done);
@@ -347,7 +347,7 @@ static void I2C_004_with_one_byte_nothing_is_read(void)
     TEST_ASSERT_EQUAL_HEX32(0x0201201Cu, began[0]);
 }
 
-static void I2C_005_nobody_answers(void)
+static void IIC_005_nobody_answers(void)
 {
     deaf = true;
     TEST_ASSERT_EQUAL(KEEL_BSP_BUS, exchange(in, 4u));
@@ -356,7 +356,7 @@ static void I2C_005_nobody_answers(void)
     is_ready_again();
 }
 
-static void I2C_005_the_address_is_not_acknowledged_again(void)
+static void IIC_005_the_address_is_not_acknowledged_again(void)
 {
     error_at = 1u;
     error = I2C_ISR_NACKF;
@@ -366,7 +366,7 @@ static void I2C_005_the_address_is_not_acknowledged_again(void)
     is_ready_again();
 }
 
-static void I2C_005_a_byte_is_not_acknowledged(void)
+static void IIC_005_a_byte_is_not_acknowledged(void)
 {
     for (uint32_t i = 0u; i < 4u; i++) {
         setUp();
@@ -378,7 +378,7 @@ static void I2C_005_a_byte_is_not_acknowledged(void)
 }
 
 /* The stop condition behind it is waited for, but not for ever. */
-static void I2C_005_no_end_behind_it(void)
+static void IIC_005_no_end_behind_it(void)
 {
     deaf = true;
     endless = true;
@@ -387,7 +387,7 @@ static void I2C_005_no_end_behind_it(void)
     is_ready_again();
 }
 
-static void I2C_006_errors_of_the_bus(void)
+static void IIC_006_errors_of_the_bus(void)
 {
     static const uint32_t flag[3] = {I2C_ISR_BERR, I2C_ISR_ARLO, I2C_ISR_OVR};
 
@@ -404,7 +404,7 @@ static void I2C_006_errors_of_the_bus(void)
     }
 }
 
-static void I2C_007_nothing_happens(void)
+static void IIC_007_nothing_happens(void)
 {
     for (uint32_t from = 0u; from < 5u; from++) {
         setUp();
@@ -421,7 +421,7 @@ static void I2C_007_nothing_happens(void)
     }
 }
 
-static void I2C_007_no_end(void)
+static void IIC_007_no_end(void)
 {
     endless = true;
     TEST_ASSERT_EQUAL(KEEL_BSP_TIMEOUT, exchange(in, 4u));
@@ -433,7 +433,7 @@ static void I2C_007_no_end(void)
     is_ready_again();
 }
 
-static void I2C_007_nothing_between_two_looks(void)
+static void IIC_007_nothing_between_two_looks(void)
 {
     static const keel_wait_t blind = {3u, NULL, NULL};
     keel_i2c_device_t other = device;
@@ -454,7 +454,7 @@ static void pins_are_given(void)
     TEST_ASSERT_EQUAL_HEX32(I2C_CR1_PE, i2c.CR1);
 }
 
-static void I2C_008_a_held_bus_is_freed_and_the_next_exchange_goes_well(void)
+static void IIC_008_a_held_bus_is_freed_and_the_next_exchange_goes_well(void)
 {
     held_for = 3u;
     lines_are(true, false);
@@ -467,7 +467,7 @@ static void I2C_008_a_held_bus_is_freed_and_the_next_exchange_goes_well(void)
     is_ready_again();
 }
 
-static void I2C_008_a_bus_that_is_not_idle(void)
+static void IIC_008_a_bus_that_is_not_idle(void)
 {
     i2c.ISR |= I2C_ISR_BUSY;
     TEST_ASSERT_EQUAL(KEEL_BSP_BUS, exchange(in, 4u));
@@ -478,7 +478,7 @@ static void I2C_008_a_bus_that_is_not_idle(void)
     is_ready_again();
 }
 
-static void I2C_008_a_clock_that_is_held(void)
+static void IIC_008_a_clock_that_is_held(void)
 {
     clock_held = true;
     lines_are(false, true);
@@ -490,7 +490,7 @@ static void I2C_008_a_clock_that_is_held(void)
     is_ready_again();
 }
 
-static void I2C_009_as_many_clocks_as_it_takes(void)
+static void IIC_009_as_many_clocks_as_it_takes(void)
 {
     for (uint32_t i = 1u; i <= 9u; i++) {
         setUp();
@@ -504,7 +504,7 @@ static void I2C_009_as_many_clocks_as_it_takes(void)
     }
 }
 
-static void I2C_009_a_line_that_stays_low(void)
+static void IIC_009_a_line_that_stays_low(void)
 {
     held_for = NOWHERE;
     lines_are(true, false);
@@ -523,28 +523,28 @@ static void I2C_009_a_line_that_stays_low(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(I2C_001_a_timing);
-    RUN_TEST(I2C_001_timings_of_many_clocks);
-    RUN_TEST(I2C_001_clocks_that_do_not_fit);
-    RUN_TEST(I2C_002_a_master);
-    RUN_TEST(I2C_002_a_clock_that_does_not_fit_changes_nothing);
-    RUN_TEST(I2C_003_all_bytes_are_written);
-    RUN_TEST(I2C_003_the_longest);
-    RUN_TEST(I2C_003_the_most_bytes);
-    RUN_TEST(I2C_004_one_byte_is_written_and_the_others_are_read);
-    RUN_TEST(I2C_004_with_one_byte_nothing_is_read);
-    RUN_TEST(I2C_005_nobody_answers);
-    RUN_TEST(I2C_005_the_address_is_not_acknowledged_again);
-    RUN_TEST(I2C_005_a_byte_is_not_acknowledged);
-    RUN_TEST(I2C_005_no_end_behind_it);
-    RUN_TEST(I2C_006_errors_of_the_bus);
-    RUN_TEST(I2C_007_nothing_happens);
-    RUN_TEST(I2C_007_no_end);
-    RUN_TEST(I2C_007_nothing_between_two_looks);
-    RUN_TEST(I2C_008_a_held_bus_is_freed_and_the_next_exchange_goes_well);
-    RUN_TEST(I2C_008_a_bus_that_is_not_idle);
-    RUN_TEST(I2C_008_a_clock_that_is_held);
-    RUN_TEST(I2C_009_as_many_clocks_as_it_takes);
-    RUN_TEST(I2C_009_a_line_that_stays_low);
+    RUN_TEST(IIC_001_a_timing);
+    RUN_TEST(IIC_001_timings_of_many_clocks);
+    RUN_TEST(IIC_001_clocks_that_do_not_fit);
+    RUN_TEST(IIC_002_a_master);
+    RUN_TEST(IIC_002_a_clock_that_does_not_fit_changes_nothing);
+    RUN_TEST(IIC_003_all_bytes_are_written);
+    RUN_TEST(IIC_003_the_longest);
+    RUN_TEST(IIC_003_the_most_bytes);
+    RUN_TEST(IIC_004_one_byte_is_written_and_the_others_are_read);
+    RUN_TEST(IIC_004_with_one_byte_nothing_is_read);
+    RUN_TEST(IIC_005_nobody_answers);
+    RUN_TEST(IIC_005_the_address_is_not_acknowledged_again);
+    RUN_TEST(IIC_005_a_byte_is_not_acknowledged);
+    RUN_TEST(IIC_005_no_end_behind_it);
+    RUN_TEST(IIC_006_errors_of_the_bus);
+    RUN_TEST(IIC_007_nothing_happens);
+    RUN_TEST(IIC_007_no_end);
+    RUN_TEST(IIC_007_nothing_between_two_looks);
+    RUN_TEST(IIC_008_a_held_bus_is_freed_and_the_next_exchange_goes_well);
+    RUN_TEST(IIC_008_a_bus_that_is_not_idle);
+    RUN_TEST(IIC_008_a_clock_that_is_held);
+    RUN_TEST(IIC_009_as_many_clocks_as_it_takes);
+    RUN_TEST(IIC_009_a_line_that_stays_low);
     return UNITY_END();
 }

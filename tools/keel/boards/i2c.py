@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A model of an I2C of the STM32F767 as a polled master, strict about what it is told.
 
-By the reference manual (RM0410, chapter 33), and by UM10204 for the times of fast mode. A byte takes
-no time, and a transfer ends as soon as nothing more is asked of the processor.
+By the reference manual (RM0410, chapter 33), and by UM10204 for the times of fast mode. A byte
+takes no time, and a transfer ends as soon as nothing more is asked of the processor.
 """
 
 from __future__ import annotations
