@@ -184,9 +184,9 @@ static uint32_t strength_of(const int16_t field[3])
     uint32_t sum = 0u;
 
     for (uint32_t axis = 0u; axis < 3u; axis++) {
-        const int32_t value = field[axis];
+        const int32_t square = (int32_t)field[axis] * field[axis];
 
-        sum += (uint32_t)(value * value);
+        sum += (uint32_t)square;
     }
     return sum;
 }

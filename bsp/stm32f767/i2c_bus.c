@@ -12,15 +12,13 @@
 #define SETUP_NS  100u
 #define RISE_NS   300u
 #define FALL_NS   300u
-#define VALID_NS  900u
 
-/* RM0410, 33.4.5: the analogue filter's delay, and clocks until an edge is seen. */
+/* RM0410, 33.4.5: the analogue filter's least delay, and clocks until an edge is seen. */
 #define FILTER_MIN_NS 50u
-#define FILTER_MAX_NS 260u
 #define PERIOD_CLOCKS 4u
 #define HOLD_CLOCKS   3u
 #define VALID_CLOCKS  4u
-#define HOLD_MOST_NS  (VALID_NS - RISE_NS - FILTER_MAX_NS)
+#define HOLD_MOST_NS  340u /* Data are valid in 900: less 300 of rising, and 260 of the filter. */
 
 #define DIVISOR_MAX 16u
 #define SETUP_MAX   16u
