@@ -206,7 +206,7 @@ static keel_bsp_status_t tell_sample(keel_ist8310_t *sensor)
     return KEEL_BSP_OK;
 }
 
-static keel_bsp_status_t take_field(keel_ist8310_t *sensor, const uint8_t *byte)
+static keel_bsp_status_t take_magnetic_field(keel_ist8310_t *sensor, const uint8_t *byte)
 {
     if (keel_bus_is_still(byte, FIELD_BYTES) ||
         (keel_bus_repeats(&sensor->repeats, byte, FIELD_BYTES) > KEEL_IST8310_REPEATS)) {
@@ -240,7 +240,7 @@ static keel_bsp_status_t end_measuring(keel_ist8310_t *sensor)
     }
     if ((byte[0] & DATA_READY) != 0u) {
         turn_to(sensor, KEEL_IST8310_IDLE);
-        return take_field(sensor, &byte[1]);
+        return take_magnetic_field(sensor, &byte[1]);
     }
     if (sensor->progress.passed_us < KEEL_IST8310_LATE_US) {
         return KEEL_BSP_WAIT;

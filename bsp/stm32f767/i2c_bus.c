@@ -178,15 +178,15 @@ static keel_bsp_status_t await_flag(i2c_exchange_t *exchange, uint32_t flag)
     return KEEL_BSP_TIMEOUT;
 }
 
-static void begin_bytes(const keel_i2c_device_t *device, uint32_t count, uint32_t options)
+static void begin_i2c_bytes(const keel_i2c_device_t *device, uint32_t count, uint32_t options)
 {
     device->i2c->CR2 = FIELD(I2C_CR2_SADD, (uint32_t)device->address << 1u) |
                        FIELD(I2C_CR2_NBYTES, count) | options | I2C_CR2_START;
 }
 
 /* Writes bytes: each is asked for when the one before was acknowledged; a flag ends the last. */
-static keel_bsp_status_t write_bytes(i2c_exchange_t *exchange, const uint8_t *out, uint32_t count,
-                                     uint32_t end)
+static keel_bsp_status_t write_i2c_bytes(i2c_exchange_t *exchange, const uint8_t *out,
+                                         uint32_t count, uint32_t end)
 {
     keel_bsp_status_t status = await_flag(exchange, I2C_ISR_TXIS);
 
@@ -201,11 +201,11 @@ static keel_bsp_status_t write_bytes(i2c_exchange_t *exchange, const uint8_t *ou
 }
 
 /* Reads bytes behind the first, up to the stop condition. */
-static keel_bsp_status_t read_bytes(i2c_exchange_t *exchange, uint8_t *in, uint32_t length)
+static keel_bsp_status_t read_i2c_bytes(i2c_exchange_t *exchange, uint8_t *in, uint32_t length)
 {
     keel_bsp_status_t status = KEEL_BSP_OK;
 
-    begin_bytes(exchange->device, length - 1u, I2C_CR2_RD_WRN | I2C_CR2_AUTOEND);
+    begin_i2c_bytes(exchange->device, length - 1u, I2C_CR2_RD_WRN | I2C_CR2_AUTOEND);
     while ((exchange->done < length) && (status == KEEL_BSP_OK)) {
         status = await_flag(exchange, I2C_ISR_RXNE);
         if (status == KEEL_BSP_OK) {
@@ -216,19 +216,19 @@ static keel_bsp_status_t read_bytes(i2c_exchange_t *exchange, uint8_t *in, uint3
     return (status == KEEL_BSP_OK) ? await_flag(exchange, I2C_ISR_STOPF) : status;
 }
 
-static keel_bsp_status_t move_bytes(i2c_exchange_t *exchange, const uint8_t *out, uint8_t *in,
-                                    uint32_t length)
+static keel_bsp_status_t move_i2c_bytes(i2c_exchange_t *exchange, const uint8_t *out, uint8_t *in,
+                                        uint32_t length)
 {
     keel_bsp_status_t status;
 
     if ((in == NULL) || (length == 1u)) {
-        begin_bytes(exchange->device, length, I2C_CR2_AUTOEND);
-        status = write_bytes(exchange, out, length, I2C_ISR_STOPF);
+        begin_i2c_bytes(exchange->device, length, I2C_CR2_AUTOEND);
+        status = write_i2c_bytes(exchange, out, length, I2C_ISR_STOPF);
     } else {
-        begin_bytes(exchange->device, 1u, 0u);
-        status = write_bytes(exchange, out, 1u, I2C_ISR_TC);
+        begin_i2c_bytes(exchange->device, 1u, 0u);
+        status = write_i2c_bytes(exchange, out, 1u, I2C_ISR_TC);
         if (status == KEEL_BSP_OK) {
-            status = read_bytes(exchange, in, length);
+            status = read_i2c_bytes(exchange, in, length);
         }
     }
     return status;
@@ -262,7 +262,7 @@ keel_bsp_status_t keel_i2c_bus_exchange(void *context, const uint8_t *out, uint8
         (void)keel_i2c_bus_free(device); /* If that fails, the next exchange tries again. */
         return KEEL_BSP_BUS;
     }
-    status = move_bytes(&exchange, out, in, length);
+    status = move_i2c_bytes(&exchange, out, in, length);
     if (status == KEEL_BSP_OK) {
         device->i2c->ICR = I2C_ICR_STOPCF;
     } else {

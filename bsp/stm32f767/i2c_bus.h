@@ -25,9 +25,6 @@
 
 #include <stdint.h>
 
-/** The fastest that the bus is, in Hz. */
-#define KEEL_I2C_LIMIT_HZ 400000u
-
 /** The most bytes of an exchange. */
 #define KEEL_I2C_BYTES 255u
 
