@@ -40,17 +40,27 @@ void keel_pin_input(keel_pin_t pin, keel_pull_t pull)
     put_two_bits(&pin.port->MODER, pin.number, MODE_INPUT);
 }
 
-void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull)
+static void give_pin(keel_pin_t pin, uint32_t function, keel_drive_t drive, keel_pull_t pull)
 {
     const uint32_t shift = FUNCTION_BITS * (pin.number % PINS_PER_AFR);
     volatile uint32_t *const select = (pin.number < PINS_PER_AFR) ? &pin.port->AFRL
                                                                   : &pin.port->AFRH;
 
     keel_bits_put(select, BITS(shift, FUNCTION_BITS), function << shift);
-    keel_bits_put(&pin.port->OTYPER, BITS(pin.number, 1u), 0u);
+    keel_bits_put(&pin.port->OTYPER, BITS(pin.number, 1u), (uint32_t)drive << pin.number);
     put_two_bits(&pin.port->OSPEEDR, pin.number, SPEED_HIGH);
     put_two_bits(&pin.port->PUPDR, pin.number, (uint32_t)pull);
     put_two_bits(&pin.port->MODER, pin.number, MODE_ALTERNATE);
+}
+
+void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull)
+{
+    give_pin(pin, function, KEEL_DRIVE_PUSH_PULL, pull);
+}
+
+void keel_pin_alternate_open_drain(keel_pin_t pin, uint32_t function, keel_pull_t pull)
+{
+    give_pin(pin, function, KEEL_DRIVE_OPEN_DRAIN, pull);
 }
 
 bool keel_pin_is_alternate(keel_pin_t pin)

@@ -72,6 +72,16 @@ void keel_pin_input(keel_pin_t pin, keel_pull_t pull);
 void keel_pin_alternate(keel_pin_t pin, uint32_t function, keel_pull_t pull);
 
 /**
+ * Gives a pin to a peripheral that shares its line with others, as of I2C: it drives low, or lets
+ * the line go (requirement PIN-008).
+ *
+ * @param pin      the pin
+ * @param function the number of the alternate function, 0 to 15
+ * @param pull     what holds it
+ */
+void keel_pin_alternate_open_drain(keel_pin_t pin, uint32_t function, keel_pull_t pull);
+
+/**
  * Whether a pin is given to a peripheral (requirement PIN-007).
  *
  * @param pin the pin

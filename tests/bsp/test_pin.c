@@ -119,6 +119,23 @@ static void PIN_007_whose_pin(void)
     TEST_ASSERT_TRUE(keel_pin_is_alternate(pin0));
 }
 
+static void PIN_008_an_open_drain_of_a_peripheral(void)
+{
+    port.MODER = 0xFFFCFFFFu;
+    port.PUPDR = 0x00030000u;
+    keel_pin_alternate_open_drain(pin8, 4u, KEEL_PULL_NONE);
+    TEST_ASSERT_EQUAL_HEX32(0x00000100u, port.OTYPER);
+    TEST_ASSERT_EQUAL_HEX32(0x00000004u, port.AFRH);
+    TEST_ASSERT_EQUAL_HEX32(0u, port.AFRL);
+    TEST_ASSERT_EQUAL_HEX32(0xFFFEFFFFu, port.MODER);
+    TEST_ASSERT_EQUAL_HEX32(0x00020000u, port.OSPEEDR);
+    TEST_ASSERT_EQUAL_HEX32(0u, port.PUPDR);
+    keel_pin_alternate_open_drain(pin7, 4u, KEEL_PULL_UP);
+    TEST_ASSERT_EQUAL_HEX32(0x00000180u, port.OTYPER);
+    TEST_ASSERT_EQUAL_HEX32(0x40000000u, port.AFRL);
+    TEST_ASSERT_EQUAL_HEX32(0x00004000u, port.PUPDR);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -131,5 +148,6 @@ int main(void)
     RUN_TEST(PIN_005_an_alternate_function_is_no_open_drain);
     RUN_TEST(PIN_006_an_analogue_pin);
     RUN_TEST(PIN_007_whose_pin);
+    RUN_TEST(PIN_008_an_open_drain_of_a_peripheral);
     return UNITY_END();
 }

@@ -56,6 +56,8 @@ typedef struct keel_rcc {
 #define RCC_CFGR_HPRE          BITS(4u, 4u)
 #define RCC_CFGR_PPRE1         BITS(10u, 3u)
 #define RCC_CFGR_PPRE2         BITS(13u, 3u)
+#define RCC_APB1RSTR_RESET     0x00000000u
+#define RCC_APB1RSTR_I2C3RST   BITS(23u, 1u)
 #define RCC_AHB1ENR_RESET      0x00100000u
 #define RCC_AHB1ENR_GPIOAEN    BITS(0u, 1u)
 #define RCC_AHB1ENR_GPIOBEN    BITS(1u, 1u)
@@ -77,6 +79,7 @@ typedef struct keel_rcc {
 #define RCC_APB1ENR_USART2EN   BITS(17u, 1u)
 #define RCC_APB1ENR_USART3EN   BITS(18u, 1u)
 #define RCC_APB1ENR_UART4EN    BITS(19u, 1u)
+#define RCC_APB1ENR_I2C3EN     BITS(23u, 1u)
 #define RCC_APB1ENR_PWREN      BITS(28u, 1u)
 #define RCC_APB1ENR_UART7EN    BITS(30u, 1u)
 #define RCC_APB2ENR_RESET      0x00000000u
@@ -95,6 +98,7 @@ typedef struct keel_rcc {
 #define RCC_DCKCFGR2_RESET     0x00000000u
 #define RCC_DCKCFGR2_USART3SEL BITS(4u, 2u)
 #define RCC_DCKCFGR2_UART7SEL  BITS(12u, 2u)
+#define RCC_DCKCFGR2_I2C3SEL   BITS(20u, 2u)
 #define RCC_DCKCFGR2_CK48MSEL  BITS(27u, 1u)
 #define RCC_DCKCFGR2_SDMMC1SEL BITS(28u, 1u)
 
