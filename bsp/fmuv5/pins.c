@@ -67,6 +67,13 @@ static const keel_board_device_t barometer = {
     .select = KEEL_PIN(F, 10u),
 };
 
+/* Inside; the one of a satellite receiver's case is at another bus. */
+static const keel_board_magnetometer_t magnetometer = {
+    .scl = KEEL_ALTERNATE(H, 7u, 4u, I2C3, SCL),
+    .sda = KEEL_ALTERNATE(H, 8u, 4u, I2C3, SDA),
+    .mounting = KEEL_MAGNETOMETER(2, 1, -3),
+};
+
 const keel_board_pins_t keel_board_pins = {
     .oscillator = {16000000u, false},
     .console = (keel_uart_t *)UART7_BASE,
@@ -93,5 +100,16 @@ const keel_board_pins_t keel_board_pins = {
     .card = &slot,
     .memory = &fram,
     .barometer = &barometer,
+    .magnetometer = &magnetometer,
+    .lines = {[KEEL_LINE_PILOT] = {KEEL_UART(USART6, APB2, DMA2, 1u, 5u),
+                                   .rx = KEEL_ALTERNATE(G, 9u, 8u, USART6, RX)},
+              [KEEL_LINE_SPARE] = {KEEL_UART(USART3, APB1, DMA1, 1u, 4u),
+                                   .rx = KEEL_ALTERNATE(D, 9u, 7u, USART3, RX)},
+              [KEEL_LINE_SATELLITES] = {KEEL_UART(USART1, APB2, DMA2, 5u, 4u),
+                                        .rx = KEEL_ALTERNATE(B, 7u, 7u, USART1, RX),
+                                        .tx = KEEL_ALTERNATE(B, 6u, 7u, USART1, TX), .sends = true},
+              [KEEL_LINE_TELEMETRY] = {KEEL_UART(USART2, APB1, DMA1, 5u, 4u),
+                                       .rx = KEEL_ALTERNATE(D, 6u, 7u, USART2, RX),
+                                       .tx = KEEL_ALTERNATE(D, 5u, 7u, USART2, TX), .sends = true}},
     .kept_sector = 0u,
 };

@@ -17,12 +17,12 @@ typedef struct command {
     uint32_t (*line)(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE]);
 } command_t;
 
-static uint32_t help(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE]);
-static uint32_t tasks(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE]);
+static uint32_t help_line(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE]);
+static uint32_t tasks_line(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE]);
 
 static const command_t commands[COMMANDS] = {
-    {"help", "these commands", help},
-    {"tasks", "how each task has run since the start", tasks},
+    {"help", "these commands", help_line},
+    {"tasks", "how each task has run since the start", tasks_line},
 };
 
 /* As much of a text as there is room for, and the end of line. */
@@ -38,7 +38,7 @@ static uint32_t append(char line[COPTER_CONSOLE_LINE], uint32_t at, const char *
     return end;
 }
 
-static uint32_t help(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE])
+static uint32_t help_line(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE])
 {
     uint32_t length = 0u;
 
@@ -50,13 +50,13 @@ static uint32_t help(const copter_t *copter, uint32_t number, char line[COPTER_C
     return length;
 }
 
-static uint32_t tasks(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE])
+static uint32_t tasks_line(const copter_t *copter, uint32_t number, char line[COPTER_CONSOLE_LINE])
 {
     return keel_task_table_line(&copter->table, &copter->scheduler, number, line);
 }
 
 /* Whoever asks nothing is told nothing. */
-static uint32_t refuse(const char *typed, uint32_t number, char line[COPTER_CONSOLE_LINE])
+static uint32_t refusal_line(const char *typed, uint32_t number, char line[COPTER_CONSOLE_LINE])
 {
     uint32_t length = 0u;
 
@@ -101,5 +101,5 @@ uint32_t copter_console_line(const copter_t *copter, copter_said_t *answer,
     }
     answer->lines++;
     return (found != NULL) ? found->line(copter, number, line)
-                           : refuse(answer->typed, number, line);
+                           : refusal_line(answer->typed, number, line);
 }

@@ -16,10 +16,14 @@
 #define MILLI      0.001f
 #define CHANNELS   2u /* Of a power module. */
 
-/* Steps of the barometer's start: its reset, and its PROM. */
-#define BAROMETER_STEPS   2u
-#define BAROMETER_STEP_US 10000u
-#define LOOKS             1000000u /* Far more than such a delay takes, but not for ever. */
+#define FIELD_UNIT (100.0f / (float)KEEL_IST8310_COUNTS_PER_GAUSS) /* In microtesla. */
+
+/* Steps of the barometer's start: its reset, and its PROM. The magnetometer's, with its first
+ * sample, are half as many again as they take when all goes well. */
+#define BAROMETER_STEPS    2u
+#define MAGNETOMETER_STEPS 24u
+#define STEP_US            10000u
+#define LOOKS              1000000u /* Far more than such a delay takes, but not for ever. */
 
 /* --- Sensors. --- */
 
@@ -44,12 +48,23 @@ static bool read_imu(void *context, uint32_t unit, copter_imu_sample_t *sample)
     return true;
 }
 
-/* Its bus has no driver yet. */
 static bool read_magnetometer(void *context, copter_magnetometer_sample_t *sample)
 {
-    (void)context;
-    (void)sample;
-    return false;
+    board_port_t *const board = context;
+    const uint32_t now_us = keel_board_clock_us(NULL);
+    const uint32_t elapsed_us = now_us - board->looked_us;
+
+    if (!board->has_magnetometer) {
+        return false;
+    }
+    board->looked_us = now_us;
+    if (keel_ist8310_step(&board->magnetometer, elapsed_us) != KEEL_BSP_OK) {
+        return false;
+    }
+    keel_mounting_turn(&board->mounting, board->magnetometer.sample.field, FIELD_UNIT,
+                       sample->value);
+    board->fields++;
+    return true;
 }
 
 static bool read_barometer(void *context, copter_barometer_sample_t *sample)
@@ -71,13 +86,11 @@ static bool read_barometer(void *context, copter_barometer_sample_t *sample)
     return true;
 }
 
-/* Receivers send faster than a loop without DMA can read them, which has no driver yet. */
 static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
 {
-    (void)context;
-    (void)receiver;
-    (void)byte;
-    return false;
+    board_port_t *const board = context;
+
+    return board_lines_read(&board->lines, receiver, byte);
 }
 
 /* --- What the converter measures. --- */
@@ -150,6 +163,12 @@ static void read_chip(void *context, copter_chip_t *chip)
     board->wants_temperature = !board->wants_temperature;
 }
 
+static void reboot(void *context)
+{
+    (void)context;
+    keel_chip_reset();
+}
+
 static uint32_t stack_free(void *context)
 {
     (void)context;
@@ -218,21 +237,55 @@ static void say(const char *device, uint64_t status, const char *missing)
     keel_console_text("\n");
 }
 
+static bool is_failure(keel_bsp_status_t status)
+{
+    return (status != KEEL_BSP_OK) && (status != KEEL_BSP_WAIT);
+}
+
+static void wait_a_step(void)
+{
+    (void)keel_wait_us(keel_board_clock_us, NULL, STEP_US, LOOKS);
+}
+
 /* Its reset, and the reading of its PROM: what is wrong with it shows there. */
 static keel_bsp_status_t start_barometer(board_port_t *board)
 {
     keel_bsp_status_t worst = KEEL_BSP_OK;
+    keel_bus_t bus;
 
+    board->has_barometer = keel_chip_barometer(&bus);
+    if (board->has_barometer) {
+        keel_ms5611_begin(&board->barometer, bus);
+    }
     for (uint32_t i = 0u; (i < BAROMETER_STEPS) && board->has_barometer; i++) {
-        const keel_bsp_status_t status = keel_ms5611_step(&board->barometer, BAROMETER_STEP_US);
+        const keel_bsp_status_t status = keel_ms5611_step(&board->barometer, STEP_US);
 
-        if ((status != KEEL_BSP_OK) && (status != KEEL_BSP_WAIT) && (worst == KEEL_BSP_OK)) {
+        if (is_failure(status) && (worst == KEEL_BSP_OK)) {
             worst = status;
         }
-        (void)keel_wait_us(keel_board_clock_us, NULL, BAROMETER_STEP_US, LOOKS);
+        wait_a_step();
     }
     board->stepped_us = keel_board_clock_us(NULL);
     return worst;
+}
+
+/* To its first sample, or to what is wrong with it. */
+static keel_bsp_status_t start_magnetometer(board_port_t *board)
+{
+    keel_bsp_status_t status = KEEL_BSP_WAIT;
+    keel_bus_t bus;
+
+    board->has_magnetometer = keel_chip_magnetometer(&bus, &board->mounting);
+    if (board->has_magnetometer) {
+        keel_ist8310_begin(&board->magnetometer, bus);
+    }
+    for (uint32_t i = 0u;
+         (i < MAGNETOMETER_STEPS) && board->has_magnetometer && (status == KEEL_BSP_WAIT); i++) {
+        status = keel_ist8310_step(&board->magnetometer, STEP_US);
+        wait_a_step();
+    }
+    board->looked_us = keel_board_clock_us(NULL);
+    return status;
 }
 
 /* Each is named, those of the vote that the board lacks as well. */
@@ -253,18 +306,27 @@ static void start_units(board_port_t *board)
 
 static void start_sensors(board_port_t *board)
 {
-    keel_bus_t bus;
+    keel_bsp_status_t status;
 
     start_units(board);
-    board->has_barometer = keel_chip_barometer(&bus);
-    if (board->has_barometer) {
-        keel_ms5611_begin(&board->barometer, bus);
-    }
-    say("barometer", (uint64_t)start_barometer(board),
-        board->has_barometer ? NULL : "the board has none");
-    say("magnetometer", 0u, "no driver");
-    say("receiver of the pilot", 0u, "no driver");
-    say("receiver of satellites", 0u, "no driver");
+    status = start_barometer(board);
+    say("barometer", (uint64_t)status, board->has_barometer ? NULL : "the board has none");
+    status = start_magnetometer(board);
+    say("magnetometer", (uint64_t)status, board->has_magnetometer ? NULL : "the board has none");
+}
+
+static void start_lines(board_lines_t *lines)
+{
+    static const char missing[] = "the board has no such line";
+
+    board_lines_start(lines);
+    say("receiver of the pilot", (uint64_t)lines->pilot,
+        (keel_chip_has_line(KEEL_LINE_PILOT) || keel_chip_has_line(KEEL_LINE_SPARE)) ? NULL
+                                                                                     : missing);
+    say("receiver of satellites", (uint64_t)lines->satellites,
+        keel_chip_has_line(KEEL_LINE_SATELLITES) ? NULL : missing);
+    say("telemetry", (uint64_t)lines->telemetry,
+        keel_chip_has_line(KEEL_LINE_TELEMETRY) ? NULL : missing);
 }
 
 static void start_converter(board_port_t *board)
@@ -317,6 +379,7 @@ copter_port_t board_port_start(board_port_t *board)
     start_converter(board);
     start_memory(board);
     start_log(board);
+    start_lines(&board->lines);
     keel_chip_uid(board->uid);
     return (copter_port_t){.read_clock = keel_board_clock_us,
                            .context = board,
@@ -333,5 +396,6 @@ copter_port_t board_port_start(board_port_t *board)
                            .write_log = write_log,
                            .end_run = end_run,
                            .memory = board->keeps ? &board->medium : NULL,
-                           .uid = board->uid};
+                           .uid = board->uid,
+                           .reboot = reboot};
 }

@@ -9,6 +9,8 @@
 #ifndef COPTER_BOARD_PORT_H
 #define COPTER_BOARD_PORT_H
 
+#include "board_lines.h"
+#include "devices/ist8310.h"
 #include "devices/ms5611.h"
 #include "fatfs/black_box.h"
 #include "keel/middleware/power_module.h"
@@ -41,12 +43,18 @@ typedef struct board_port {
     bool has_slot;            /**< For a card. */
     bool keeps;               /**< Parameters are kept in the memory. */
     bool turning;             /**< The outputs are armed. */
+    bool has_magnetometer;    /**< As has_barometer. */
     uint32_t pressures;       /**< Samples of the barometer. */
     uint32_t stepped_us;      /**< When it was stepped last. */
+    uint32_t fields;          /**< Samples of the magnetometer. */
+    uint32_t looked_us;       /**< When it was stepped last. */
     uint32_t measured;        /**< Conversions of the power modules. */
     uint32_t supply_mv;       /**< The chip's supply; 0: not known yet. */
     bool wants_temperature;   /**< The chip's temperature is measured next. */
     keel_ms5611_device_t barometer;
+    keel_ist8310_t magnetometer;
+    keel_mounting_t mounting; /**< Of the magnetometer. */
+    board_lines_t lines;
     keel_power_module_t scale; /**< Of both power modules. */
     board_module_t module[COPTER_POWER_MODULES];
     keel_medium_t medium;

@@ -3,9 +3,9 @@
  * @file main.c
  * @brief The copter on a real board: the tasks that fly on the host, with the board's own devices.
  *
- * It does not fly yet: each device without a driver is named on the console, and the copter refuses
- * to arm without it. It runs the sensors that are there, the parameters, the log on a card, and the
- * watchdog, which is fed only while every real-time task meets its releases.
+ * It has not flown yet. Each device that is missing is named on the console, and the copter refuses
+ * to arm without one that it needs. The watchdog is fed only while every real-time task meets its
+ * releases.
  *
  * A line on the console tells every second how it goes. A refusal of the kernel ends as a fault
  * does, with the outputs off.
@@ -28,6 +28,7 @@
 static copter_t copter KEEL_REALTIME_ZERO;
 static copter_port_t port KEEL_REALTIME_ZERO;
 static board_port_t board;
+static copter_telemetry_t telemetry;
 
 static void require(keel_status_t status, uint32_t code)
 {
@@ -78,6 +79,9 @@ static void print_report(void)
     print_units();
     print_number(" barometer ", board.pressures);
     print_number(" pa ", (uint64_t)copter.barometer.pressure_pa);
+    print_number(" fields ", board.fields);
+    print_number(" radio ", copter.pilot.rc.protocol);
+    print_number(" fixes ", copter.gps.fixes);
     print_number(" battery ", copter.power.battery.level);
     print_number(" kept ", board.box.kept);
     keel_console_text("\n");
@@ -95,6 +99,16 @@ static void use_idle_time(void)
     }
 }
 
+/* A board without a line for it flies without. */
+static void start_telemetry(void)
+{
+    const copter_telemetry_config_t config = board_lines_telemetry(&board.lines);
+
+    if (board.lines.telemetry == KEEL_BSP_OK) {
+        require(copter_telemetry_start(&copter, &telemetry, &config), FAULT_SETUP);
+    }
+}
+
 int main(void)
 {
     uint64_t reported_us = 0u;
@@ -108,10 +122,13 @@ int main(void)
     if (board.box.state == KEEL_BLACK_BOX_OPEN) {
         require(copter_log_start(&copter), FAULT_SETUP);
     }
+    start_telemetry();
     keel_chip_watchdog_start(&copter.scheduler);
     for (;;) {
         require(keel_scheduler_step(&copter.scheduler), FAULT_STEP);
         keel_chip_turn();
+        board_lines_turn(&board.lines, copter_settings.rc.protocol, copter.pilot.rc.protocol,
+                         keel_board_clock_us(NULL));
         if ((copter.scheduler.clock.now_us - reported_us) >= REPORT_EVERY_US) {
             reported_us = copter.scheduler.clock.now_us;
             print_report();

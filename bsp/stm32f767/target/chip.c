@@ -483,6 +483,7 @@ void keel_chip_turn(void)
     const uint32_t now_us = keel_board_clock_us(NULL);
 
     keel_serial_pump(&serial);
+    keel_chip_lines_turn(now_us);
     if ((supervised != NULL) && ((now_us - last_fed_us) >= FEED_EVERY_US)) {
         last_fed_us = now_us;
         if (keel_supervisor_met(&supervisor, supervised, supervised->clock.now_us)) {

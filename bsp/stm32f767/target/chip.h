@@ -16,6 +16,7 @@
 #include "stm32f767/clock_tree.h"
 #include "stm32f767/pin.h"
 #include "stm32f767/pwm.h"
+#include "stm32f767/receiver.h"
 #include "stm32f767/registers/uart.h"
 
 #include <stdbool.h>
@@ -193,6 +194,50 @@ typedef struct keel_board_inertial {
     {KEEL_INERTIAL_##kind, KEEL_PIN(letter, number), KEEL_PIN(other, another),                     \
      KEEL_MOUNTING(x, y, z)}
 
+/** A magnetometer IST8310 at I2C 3. */
+typedef struct keel_board_magnetometer {
+    keel_alternate_t scl;
+    keel_alternate_t sda;
+    keel_mounting_t mounting; /**< Of forward, right and down as its driver tells them. */
+} keel_board_magnetometer_t;
+
+/** A magnetometer's mounting; `make check NAME=registers` holds it against specs/outputs.toml. */
+#define KEEL_MAGNETOMETER(x, y, z) KEEL_MOUNTING(x, y, z)
+
+/** The lines of a board, by what is meant to be at their sockets. */
+typedef enum keel_chip_line {
+    KEEL_LINE_PILOT = 0,      /**< The socket of the pilot's receiver. */
+    KEEL_LINE_SPARE = 1,      /**< A socket for the same, where an IO processor has the first. */
+    KEEL_LINE_SATELLITES = 2, /**< The satellite receiver. */
+    KEEL_LINE_TELEMETRY = 3   /**< A radio to a ground station. */
+} keel_chip_line_t;
+
+#define KEEL_CHIP_LINES 4u
+
+/** A UART with the stream of DMA that takes its bytes. */
+typedef struct keel_board_line {
+    keel_uart_t *uart; /**< Null: the board has no such line. */
+    uint32_t enable;   /**< Its bit in APB1ENR or … */
+    bool on_apb2;      /**< … in APB2ENR. */
+    bool sends;        /**< It has tx; else it only receives. */
+    keel_dma_t *dma;
+    uint32_t stream;
+    uint32_t channel;
+    keel_alternate_t rx;
+    keel_alternate_t tx; /**< Where it sends. */
+} keel_board_line_t;
+
+/**
+ * What a line's UART and stream are. Which line it is, `make check NAME=registers` holds against
+ * specs/outputs.toml; the chip's model refuses a stream that does not hear the UART.
+ */
+#define KEEL_UART(uart_name, bus, dma_name, stream_number, channel_number)                         \
+    .uart = (keel_uart_t *)uart_name##_BASE, .enable = RCC_##bus##ENR_##uart_name##EN,             \
+    .on_apb2 = (KEEL_IS_##bus != 0), .dma = (keel_dma_t *)dma_name##_BASE,                         \
+    .stream = (stream_number), .channel = (channel_number)
+#define KEEL_IS_APB1 0
+#define KEEL_IS_APB2 1
+
 /** What a board says about itself. */
 typedef struct keel_board_pins {
     keel_oscillator_t oscillator;
@@ -213,11 +258,13 @@ typedef struct keel_board_pins {
     uint32_t inertial_count;               /**< 1 to KEEL_CHIP_INERTIAL_UNITS. */
     const keel_pin_t *deselect;            /**< Other devices on the bus, which must stay silent. */
     uint32_t deselect_count;
-    const keel_analogue_t *analogue;      /**< By keel_analogue_name_t; null: none. */
-    uint32_t analogue_count;              /**< KEEL_ANALOGUES, or 0. */
-    const keel_board_card_t *card;        /**< Null: no slot. */
-    const keel_board_device_t *memory;    /**< FM25V02 at SPI 2; null: none. */
-    const keel_board_device_t *barometer; /**< MS5611 at SPI 4; null: none. */
+    const keel_analogue_t *analogue;               /**< By keel_analogue_name_t; null: none. */
+    uint32_t analogue_count;                       /**< KEEL_ANALOGUES, or 0. */
+    const keel_board_card_t *card;                 /**< Null: no slot. */
+    const keel_board_device_t *memory;             /**< FM25V02 at SPI 2; null: none. */
+    const keel_board_device_t *barometer;          /**< MS5611 at SPI 4; null: none. */
+    const keel_board_magnetometer_t *magnetometer; /**< Null: none. */
+    keel_board_line_t lines[KEEL_CHIP_LINES];      /**< By keel_chip_line_t. */
     uint32_t kept_sector; /**< The first of two flash sectors that images leave free, where there is
                                no memory; 0: none. */
 } keel_board_pins_t;
@@ -293,6 +340,48 @@ void keel_mounting_turn(const keel_mounting_t *mounting, const int16_t sensor[3]
 bool keel_chip_barometer(keel_bus_t *bus);
 
 /**
+ * Starts the bus of the board's magnetometer, an IST8310. To be called once.
+ *
+ * @param bus      the bus; as it was when there is no magnetometer
+ * @param mounting how the magnetometer lies; as it was when there is none
+ * @return whether the board has one
+ */
+bool keel_chip_magnetometer(keel_bus_t *bus, keel_mounting_t *mounting);
+
+/** Whether the board has a line. */
+bool keel_chip_has_line(keel_chip_line_t name);
+
+/**
+ * Starts a line, or starts it anew with other bits: what was unread is forgotten.
+ *
+ * @param name which
+ * @param line its bits
+ * @return as keel_receiver_start; KEEL_BSP_ARGUMENT when the board has no such line
+ */
+keel_bsp_status_t keel_chip_line_start(keel_chip_line_t name, const keel_line_t *line);
+
+/**
+ * The next byte of a line, as keel_receiver_read.
+ *
+ * @param name which
+ * @param byte the byte; as it was when there is none
+ * @return whether there is one; false before the line's start, too
+ */
+bool keel_chip_line_read(keel_chip_line_t name, keel_receiver_byte_t *byte);
+
+/**
+ * Sends a byte, as keel_receiver_send.
+ *
+ * @param name  which
+ * @param value the byte
+ * @return whether it is on its way; false before the line's start, too
+ */
+bool keel_chip_line_send(keel_chip_line_t name, uint8_t value);
+
+/** What came by a line, and what did not; all 0 before its start. */
+const keel_receiver_count_t *keel_chip_line_count(keel_chip_line_t name);
+
+/**
  * The slot for an SD card, supplied and ready for the disk's start, which is the card's, by
  * sd_card.h. Takes 20 ms; may be called once. When the card breaks down in flight, a write takes
  * 2 ms at most.
@@ -353,8 +442,8 @@ keel_bsp_status_t keel_chip_brownout_set(void);
 void keel_chip_watchdog_start(const keel_scheduler_t *scheduler);
 
 /**
- * To be called in every turn of the main loop: moves the console on, and feeds the watchdog if all
- * real-time tasks met their releases.
+ * To be called in every turn of the main loop: moves the console on, looks at the lines, and feeds
+ * the watchdog if all real-time tasks met their releases.
  */
 void keel_chip_turn(void);
 

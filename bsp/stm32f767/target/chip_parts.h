@@ -39,4 +39,7 @@ void keel_chip_give_spi(keel_alternate_t sck, keel_alternate_t miso, keel_altern
  */
 keel_bsp_status_t keel_chip_delay(void *context, uint32_t time_us);
 
+/** Looks at the bytes that came by the lines; a part of keel_chip_turn. */
+void keel_chip_lines_turn(uint32_t now_us);
+
 #endif

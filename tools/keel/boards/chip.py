@@ -8,10 +8,15 @@ from dataclasses import dataclass
 from functools import partial
 
 from keel.base.errors import ToolError
+from keel.boards.attached import DMAS, I2C3, Attached, ClockError
 from keel.boards.bmi055 import ACCELEROMETER_ID, GYROSCOPE_ID, Bmi055Part
 from keel.boards.card import CardError, CardHost, SdCard
+from keel.boards.dma_uart import UARTS, DmaUartError
 from keel.boards.fram import Fram
+from keel.boards.i2c import I2c, I2cError
 from keel.boards.icm20689 import IDENTITY, OTHER, Icm20689
+from keel.boards.ist8310 import ADDRESS as IST8310_ADDRESS
+from keel.boards.ist8310 import Ist8310
 from keel.boards.ms5611 import Ms5611
 from keel.boards.pulses import Outputs, PulseError, State, timers
 from keel.boards.spi import DATA, SPI1, SPI2, SPI4, Device, Registers, SpiError, Spis
@@ -43,8 +48,13 @@ BLOCKS = {
     ADC1: 0x50,
     ADC_COMMON: 0xC,
     SDMMC1: 0x84,
+    I2C3: 0x2C,
+    **dict.fromkeys(DMAS.values(), 0xD0),
+    **{uart.base: 0x2C for uart in UARTS.values()},
     **{GPIOA + 0x400 * port: 0x2C for port in range(11)},
 }
+# By each address of a byte.
+BASE_OF = {base + i: base for base, size in BLOCKS.items() for i in range(size)}
 RESETS = {
     FLASHR + 0x10: 1 << 31,
     RCC: 0x83,
@@ -75,7 +85,7 @@ FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
 CORE_MHZ = 216
 SENSORS = ("sensor", "other-sensor", "second-sensor")  # Without the first, or another, …
-BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", *SENSORS)
+BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", "magnetometer", *SENSORS)
 
 
 # A card's slot: clock, command and data, by port and pin, and what switches its supply.
@@ -144,6 +154,33 @@ class Chip:
             **dict(zip(BMI055, (self.gyroscope, self.accelerometer), strict=True)),
         }
         self.spis = Spis(wiring.buses, [(seat, devices[seat.name]) for seat in wiring.seats])
+        self.i2c_pins = wiring.i2c
+        self.magnetometer = Ist8310(there=broken != "magnetometer")
+        self.i2c = I2c({IST8310_ADDRESS: self.magnetometer})
+        self.store: Callable[[int, int], None] = lambda *_: None  # The processor has the memory.
+        self.attached = Attached(
+            wiring.lines,
+            self.i2c if wiring.i2c else None,
+            lambda clock: bool(self.words.get(clock[0], 0) >> clock[1] & 1),
+            self._function_of,
+            lambda address, byte: self.store(address, byte),
+        )
+        self.lines = self.attached.lines
+        self.handlers: dict[int, Callable[[int, int], None]] = {
+            RCC: self._rcc,
+            PWR: self._pwr,
+            IWDG: self._iwdg,
+            **{spi: partial(self._spi, spi) for spi in (SPI1, SPI2, SPI4)},
+            TIM1: self._tim1,
+            TIM5: self._tim5,
+            self.console: self._uart,
+            SCB: self._scb,
+            FLASHR: self._flash,
+            ADC1: self._adc,
+            ADC_COMMON: self._adc_common,
+            SDMMC1: self._sdmmc,
+            SYSTICK: self._systick,
+        }
         self.card: SdCard | None = None  # In the slot.
         self.slot = CardHost()
         self.words: dict[int, int] = {}
@@ -165,6 +202,7 @@ class Chip:
         self.fed_us = self.time_us
         self.counter_from_us = 0
         self.spis.reset()
+        self.attached.reset()
         self.adc = Converter()
         self.slot = CardHost(self.card)
         self.flash_is_open = False
@@ -191,14 +229,16 @@ class Chip:
 
     def block(self, address: int) -> int:
         """The peripheral that has a register; there must be one."""
-        for base, size in BLOCKS.items():
-            if base <= address < base + size:
-                return base
-        raise ModelError(f"0x{address:08x} is no register of a peripheral that is modelled")
+        base = BASE_OF.get(address)
+        if base is None:
+            raise ModelError(f"0x{address:08x} is no register of a peripheral that is modelled")
+        return base
 
     def read(self, address: int) -> int:
         """What a register reads."""
-        self.block(address)
+        base = self.block(address)
+        if base in self.attached.blocks:
+            return self._attached(base, address - base, None)
         if address == TIM5 + 0x24:
             self.tick(self.step_us)
             return (self.time_us - self.counter_from_us) & 0xFFFF_FFFF
@@ -213,6 +253,8 @@ class Chip:
             return self._adc_read(address - ADC1)
         if SDMMC1 <= address < SDMMC1 + 0x84:
             return self._sdmmc_read(address - SDMMC1)
+        if GPIOA <= base < GPIOA + 11 * 0x400 and address - base == 0x10:
+            return self._inputs((base - GPIOA) // 0x400)
         if address == SCB + 4:
             pending = self.words.get(address, 0) & 1 << 26
             return pending | self.exception | (0x800 if self.exception else 0)  # RETTOBASE.
@@ -223,28 +265,32 @@ class Chip:
         base = self.block(address)
         if base in CLOCKED and not self.words.get(CLOCKED[base][0], 0) >> CLOCKED[base][1] & 1:
             return  # Without its clock a peripheral takes nothing.
+        if base in self.attached.blocks:
+            self._attached(base, address - base, value)
+            return
         self.words[address] = value
-        handler: Callable[[int, int], None] | None = {
-            RCC: self._rcc,
-            PWR: self._pwr,
-            IWDG: self._iwdg,
-            **{spi: partial(self._spi, spi) for spi in (SPI1, SPI2, SPI4)},
-            TIM1: self._tim1,
-            TIM5: self._tim5,
-            self.console: self._uart,
-            SCB: self._scb,
-            FLASHR: self._flash,
-            ADC1: self._adc,
-            ADC_COMMON: self._adc_common,
-            SDMMC1: self._sdmmc,
-            SYSTICK: self._systick,
-        }.get(base)
+        handler = self.handlers.get(base)
         if handler:
             handler(address - base, value)
         elif GPIOA <= base < GPIOA + 11 * 0x400:
             self._gpio((base - GPIOA) // 0x400, address - base, value)
         if base in CLOCKED or (GPIOA <= base < GPIOA + 11 * 0x400 and address - base < 0x28):
             self._outputs(base, address - base)
+
+    def _attached(self, base: int, offset: int, value: int | None) -> int:
+        """A register of a peripheral that is a model of its own: written, or read."""
+        try:
+            if value is None:
+                return self.attached.read(base, offset, self.time_us)
+            self.attached.write(base, offset, value, self.time_us)
+        except (ClockError, DmaUartError, I2cError) as error:
+            raise ModelError(str(error)) from error
+        return 0
+
+    def _inputs(self, port: int) -> int:
+        """What pins read, as far as anything is joined to them: the lines of the I2C."""
+        levels = dict(zip(self.i2c_pins or (), self.i2c.lines(), strict=False))
+        return sum(high << pin[1] for pin, high in levels.items() if pin[0] == port)
 
     def _outputs(self, base: int, offset: int) -> None:
         """A timer of the outputs, or a port, has changed."""
@@ -413,6 +459,9 @@ class Chip:
             elif value >> 16 >> bit & 1:
                 self.high.pop(pin, None)
                 self.spis.select(pin, True)
+        if self.i2c_pins and all(map(self._is_output, self.i2c_pins)):
+            scl, sda = (pin in self.high for pin in self.i2c_pins)
+            self.i2c.drive(scl, sda)
 
     # The slot.
 

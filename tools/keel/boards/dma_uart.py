@@ -90,6 +90,7 @@ class Line:
     stream: int
     clock_hz: int
     store: Callable[[int, int], None]  # Writes a byte at an address.
+    joined: Callable[[], bool] = lambda: True  # Whether its pin is the UART's.
     stops_after: int = 0  # So often a stream still reads as on when it was switched off.
     sent: bytearray = field(default_factory=bytearray)  # By the UART.
     flags: int = 0  # Of the stream, as stream 0 has them in LISR.
@@ -102,6 +103,11 @@ class Line:
     _size: int = 0  # Of the ring.
     _stopping: int = 0
     _sent_until_us: float = 0
+
+    def reset(self) -> None:
+        """The registers as a reset leaves them; what is on its way comes all the same."""
+        self._words, self._stream = {}, {FCR: 0x21}
+        self._status = self._stopping = self.flags = 0
 
     # Who sends.
 
@@ -130,6 +136,8 @@ class Line:
     def _receive(self, coming: Coming) -> None:
         """After an overrun nothing is received until its flag is cleared."""
         if self._words.get(CR1, 0) & (UE | RE) != UE | RE or self._status & ORE:
+            return
+        if not self.joined():
             return
         errors = self._errors(coming)
         self._status |= errors

@@ -82,6 +82,11 @@ class I2c:
     def on(self) -> bool:
         return bool(self.words.get(CR1, 0) & 1)
 
+    def reset(self) -> None:
+        """The registers as a reset leaves them."""
+        self.words, self.flags, self.left, self._device = {}, 0, 0, None
+        self._accesses, self._scl, self._sda = OFF_CLOCKS + 1, True, True
+
     def read(self, offset: int, now_us: int) -> int:
         """What a register reads."""
         self._accesses += 1

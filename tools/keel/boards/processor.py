@@ -61,6 +61,7 @@ class Processor:
         self.uc.hook_add(u.UC_HOOK_MEM_WRITE, self._store, begin=FLASH, end=end)
         self.uc.hook_add(u.UC_HOOK_MEM_INVALID, self._unmapped)
         chip.erase = self._erase
+        chip.store = lambda place, byte: self.uc.mem_write(place, bytes([byte]))
 
     # What the processor meets.
 

@@ -15,6 +15,8 @@ PINS = "bsp/*/pins.c"
 OUTPUT_LINE = re.compile(r"KEEL_OUTPUT\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
 AXES = r"(-?\d), (-?\d), (-?\d)\)"
 INERTIAL_LINE = re.compile(r"KEEL_INERTIAL(?:_PAIR)?\((\w+), ((?:\w, \d+u, )+)" + AXES)
+MAGNETOMETER_LINE = re.compile(r"KEEL_MAGNETOMETER\(" + AXES)
+UART_LINE = re.compile(r"\[KEEL_LINE_(\w+)\] = \{KEEL_UART\((\w+),")
 ARMED_LINE = re.compile(r"KEEL_ARMED\((\w), (\d+)u\)")
 LEVEL_LINE = re.compile(r"KEEL_LEVEL\((\w), (\d+)u, (true|false)\)")
 
@@ -27,6 +29,8 @@ class Sockets(Table):
     inertial: list[Text]
     outputs: list[Text]
     levels: list[Text]
+    magnetometer: Text | None = None
+    lines: list[Text] = []
     armed: Text | None = None
 
     @property
@@ -71,6 +75,8 @@ def stated(text: str) -> dict[str, list[str]]:
             f"P{port}{number} {'high' if high == 'true' else 'low'}"
             for port, number, high in LEVEL_LINE.findall(text)
         ),
+        "magnetometer": [" ".join(axes) for axes in MAGNETOMETER_LINE.findall(text)],
+        "lines": [" ".join(line) for line in UART_LINE.findall(text)],
         "armed": [f"P{port}{number}" for port, number in ARMED_LINE.findall(text)],
     }
 
@@ -82,6 +88,8 @@ def expected(board: Sockets) -> dict[str, list[str]]:
         "inertial": board.inertial,
         "outputs": board.outputs,
         "levels": sorted(board.levels),
+        "magnetometer": [board.magnetometer] if board.magnetometer else [],
+        "lines": board.lines,
         "armed": [board.armed] if board.armed else [],
     }
 

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from keel.boards.spi import SPI1, SPI2, SPI4, Bus, Pin, Seat
 
 RCC = 0x4002_3800
-APB1ENR, APB2ENR = RCC + 0x40, RCC + 0x44
+AHB1ENR, APB1ENR, APB2ENR = RCC + 0x30, RCC + 0x40, RCC + 0x44
 USART3, UART7 = 0x4000_4800, 0x4000_7800
 
 Pins = tuple[Pin, Pin, Pin]  # Clock, from the device, to the device.
@@ -25,12 +26,27 @@ BMI055 = {"BMI055's gyroscope": ((5, 4), 10.0), "BMI055's accelerometer": ((6, 1
 
 
 @dataclass(frozen=True)
+class LineWiring:
+    """A UART at a socket: the stream of DMA that takes its bytes, its pin and the pin's function."""
+
+    uart: str
+    dma: int
+    stream: int
+    rx: Pin
+    function: int
+    clock: tuple[int, int]  # Register and bit.
+    clock_hz: int
+
+
+@dataclass(frozen=True)
 class Wiring:
     """A board around the chip."""
 
     console: int
     buses: tuple[Bus, ...]
     seats: tuple[Seat, ...]
+    lines: Mapping[str, LineWiring] = field(default_factory=dict)
+    i2c: tuple[Pin, Pin] | None = None  # SCL and SDA of I2C 3, with an IST8310.
 
 
 def icm20689(select: Pin, supply: Pin | None) -> Seat:
@@ -56,5 +72,12 @@ WIRINGS = {
             Seat("memory", SPI2, (5, 5), 40.0),
             Seat("barometer", SPI4, (5, 10), 20.0, SENSORS_ON),
         ),
+        {
+            "pilot": LineWiring("USART6", 2, 1, (6, 9), 8, (APB2ENR, 5), 108_000_000),
+            "spare": LineWiring("USART3", 1, 1, (3, 9), 7, (APB1ENR, 18), 54_000_000),
+            "satellites": LineWiring("USART1", 2, 5, (1, 7), 7, (APB2ENR, 4), 108_000_000),
+            "telemetry": LineWiring("USART2", 1, 5, (3, 6), 7, (APB1ENR, 17), 54_000_000),
+        },
+        ((7, 7), (7, 8)),
     ),
 }
