@@ -31,17 +31,6 @@ typedef struct ublox_item {
 /* The rates of receivers as they come, M8, M9 and M10, before those that others set. */
 const uint32_t keel_ublox_baud[KEEL_UBLOX_RATES] = {9600u, 38400u, 115200u, 57600u, 230400u};
 
-/* NMEA is off first: at 9600 baud it may fill the line, and keep answers waiting. */
-static const ublox_item_t ublox_item[ITEMS] = {
-    {KEY_NMEA_OUT, 0u},       {KEY_UBX_IN, 1u},         {KEY_UBX_OUT, 1u},
-    {KEY_MODEL, AIRBORNE_4G}, {KEY_PVT, (uint32_t)EACH}};
-
-/* CFG-NAV5 of 36 bytes, of which the first two say that nothing but the third is to be taken: the
- * dynamic model. Its checksum is at its end. */
-static const uint8_t ublox_nav5[NAV5_BYTES] = {0xB5u, 0x62u,       0x06u, 0x24u,         36u,
-                                               0x00u, 0x01u,       0x00u, AIRBORNE_4G,   [42] = 0x57u,
-                                               [43] = 0xF8u};
-
 static void enter_state(keel_ublox_t *receiver, keel_ublox_state_t state)
 {
     receiver->state = state;
@@ -64,25 +53,36 @@ static void add_item(keel_ublox_t *receiver, uint32_t key, uint32_t value)
     add_bytes(receiver, message.bytes, message.size);
 }
 
-/* For M9, M10 and F9: an item a message, as a message with one that they do not know is refused. */
+/* For M9, M10 and F9: an item a message, as a message with one that they do not know is refused.
+ * NMEA is off first: at 9600 baud it may fill the line, and keep answers waiting. */
 static void add_items(keel_ublox_t *receiver, uint32_t period_ms)
 {
+    static const ublox_item_t item[ITEMS] = {{KEY_NMEA_OUT, 0u},
+                                             {KEY_UBX_IN, 1u},
+                                             {KEY_UBX_OUT, 1u},
+                                             {KEY_MODEL, AIRBORNE_4G},
+                                             {KEY_PVT, EACH}};
+
     for (uint32_t i = 0u; i < ITEMS; i++) {
-        add_item(receiver, ublox_item[i].key, ublox_item[i].value);
+        add_item(receiver, item[i].key, item[i].value);
     }
     add_item(receiver, KEY_PERIOD, period_ms);
 }
 
-/* For u-blox 7 and M8. */
+/* For u-blox 7 and M8. CFG-NAV5 has 36 bytes, of which the first two say that nothing but the third
+ * is to be taken, the dynamic model; its checksum is at its end. */
 static void add_messages(keel_ublox_t *receiver, uint32_t period_ms)
 {
+    static const uint8_t nav5[NAV5_BYTES] = {
+        [0] = 0xB5u, [1] = 0x62u,       [2] = 0x06u,  [3] = 0x24u, [4] = 36u,
+        [6] = 0x01u, [8] = AIRBORNE_4G, [42] = 0x57u, [43] = 0xF8u};
     keel_ubx_message_t message;
 
     keel_ubx_write_output(&message, GROUP_NAV, ID_PVT, EACH);
     add_bytes(receiver, message.bytes, message.size);
     keel_ubx_write_rate(&message, (uint16_t)period_ms);
     add_bytes(receiver, message.bytes, message.size);
-    add_bytes(receiver, ublox_nav5, NAV5_BYTES);
+    add_bytes(receiver, nav5, NAV5_BYTES);
 }
 
 /* The first that the receiver knows changes its rate, and the other is noise to it. */

@@ -17,7 +17,7 @@
 /** The longest message that it takes. */
 #define SIMULATED_UBLOX_BYTES 64u
 
-/** What settings say. */
+/** The settings. */
 typedef struct simulated_ublox_settings {
     uint32_t baud;
     uint32_t period_ms; /**< Between measurements. */

@@ -117,8 +117,7 @@ static void begin_refuses(uint32_t baud, uint32_t period_ms)
 {
     const keel_ublox_t before = driver;
 
-    TEST_ASSERT_EQUAL(KEEL_BSP_ARGUMENT,
-                      keel_ublox_begin(&driver, the_port(), baud, period_ms));
+    TEST_ASSERT_EQUAL(KEEL_BSP_ARGUMENT, keel_ublox_begin(&driver, the_port(), baud, period_ms));
     TEST_ASSERT_EQUAL_MEMORY(&before, &driver, sizeof before);
 }
 
@@ -179,8 +178,8 @@ static const uint8_t settings[] = {
     0xB5, 0x62, 0x06, 0x8A, 9, 0, 0, 1, 0, 0, 0x01, 0x00, 0x73, 0x10, 1, 0x1F, 0xB0, /**/
     0xB5, 0x62, 0x06, 0x8A, 9, 0, 0, 1, 0, 0, 0x01, 0x00, 0x74, 0x10, 1, 0x20, 0xB3, /**/
     /* CFG-NAVSPG-DYNMODEL 8, CFG-MSGOUT-UBX_NAV_PVT_UART1 1, CFG-RATE-MEAS 100. */
-    0xB5, 0x62, 0x06, 0x8A, 9, 0, 0, 1, 0, 0, 0x21, 0x00, 0x11, 0x20, 8, 0xF4, 0x51,      /**/
-    0xB5, 0x62, 0x06, 0x8A, 9, 0, 0, 1, 0, 0, 0x07, 0x00, 0x91, 0x20, 1, 0x53, 0x48,      /**/
+    0xB5, 0x62, 0x06, 0x8A, 9, 0, 0, 1, 0, 0, 0x21, 0x00, 0x11, 0x20, 8, 0xF4, 0x51,       /**/
+    0xB5, 0x62, 0x06, 0x8A, 9, 0, 0, 1, 0, 0, 0x07, 0x00, 0x91, 0x20, 1, 0x53, 0x48,       /**/
     0xB5, 0x62, 0x06, 0x8A, 10, 0, 0, 1, 0, 0, 0x01, 0x00, 0x21, 0x30, 100, 0, 0x51, 0xB9, /**/
     /* CFG-MSG, CFG-RATE and CFG-NAV5. */
     0xB5, 0x62, 0x06, 0x01, 3, 0, 0x01, 0x07, 1, 0x13, 0x51,             /**/
@@ -203,7 +202,7 @@ static void UBL_004_the_settings_byte_by_byte(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(settings, line, sizeof settings);
 }
 
-/* What one receiver does with them: all seven items, or all four messages. */
+/* One receiver does all four messages, another all seven items. */
 static void UBL_004_each_generation_takes_its_own(void)
 {
     (void)time_until(KEEL_UBLOX_RUNNING, LONGEST_US);

@@ -98,9 +98,7 @@ class Settings(unittest.TestCase):
         mode = {"charLen": 3, "parity": 4, "nStopBits": 0}
         data = self.message("CFG-PRT", portID=1, baudRate=baud, inUBX=1, outUBX=1, **mode)
         payload = data[6:10] + bytes([data[10] | 0x10]) + data[11:-2]
-        built: bytes = self.pyubx2.UBXMessage(
-            6, 0, self.pyubx2.SET, payload=payload
-        ).serialize()
+        built: bytes = self.pyubx2.UBXMessage(6, 0, self.pyubx2.SET, payload=payload).serialize()
         return built
 
     def test_all_bytes_are_what_pyubx2_builds(self) -> None:
@@ -114,7 +112,7 @@ class Settings(unittest.TestCase):
                 self.assertEqual(self.sent(baud, period_ms), b"".join(expected))
 
     def test_all_bytes_are_messages_that_pyubx2_reads(self) -> None:
-        """What it reads says the same, so that no message is built from a wrong idea of it."""
+        """It reads the same from them, so that no message is built from a wrong idea of it."""
         data = self.sent(115200, 100)
         stream = self.pyubx2.UBXReader(BytesIO(data), msgmode=self.pyubx2.SET, quitonerror=2)
         raws, read = zip(*stream, strict=True)
