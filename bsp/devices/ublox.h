@@ -4,10 +4,10 @@
  * @brief Sets up a satellite receiver by u-blox as it comes out of its box: a state machine that
  *        never waits.
  *
- * An M8 speaks NMEA at 9600 baud, an M9 or M10 at 38400, and others as they were set up before.
- * The driver goes through the rates. At each it sends all settings: NAV-PVT with each measurement,
- * the time between measurements, the dynamic model of an aircraft of up to 4 g, UBX in place of
- * NMEA, and last the rate of the line that is wanted. Then it listens at that rate.
+ * An M8 speaks NMEA at 9600 baud, an M9 at 38400, an M10 at one of the two, and others as they were
+ * set up before. The driver goes through the rates. At each it sends all settings: NAV-PVT with
+ * each measurement, the time between measurements, the dynamic model of an aircraft of up to 4 g,
+ * UBX in place of NMEA, and last the rate of the line that is wanted. Then it listens at that rate.
  *
  * Each setting is sent as CFG-VALSET, which receivers know from the ninth generation on (M9, M10,
  * F9), and as CFG-PRT, CFG-MSG, CFG-RATE and CFG-NAV5, which u-blox 7 and M8 know: a receiver
