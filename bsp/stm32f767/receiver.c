@@ -41,7 +41,7 @@ static uint32_t saturated_sum(uint32_t a, uint32_t b)
 }
 
 /* The time of so many bytes, to the nearest microsecond. */
-static uint32_t time_of(const keel_line_t *line, uint32_t bytes)
+static uint32_t bytes_time_of(const keel_line_t *line, uint32_t bytes)
 {
     const uint32_t bits = PLAIN_BITS + (line->even_parity ? 1u : 0u) + (line->two_stops ? 1u : 0u);
     const uint64_t scaled = (uint64_t)bits * bytes * US_PER_SECOND;
@@ -127,8 +127,8 @@ keel_bsp_status_t keel_receiver_start(keel_receiver_t *receiver,
     }
     receiver->config = *config;
     receiver->count = (keel_receiver_count_t){0};
-    receiver->byte_us = time_of(line, 1u);
-    receiver->trusted_us = time_of(line, KEEL_RECEIVER_TRUSTED);
+    receiver->byte_us = bytes_time_of(line, 1u);
+    receiver->trusted_us = bytes_time_of(line, KEEL_RECEIVER_TRUSTED);
     receiver->look_us = now_us;
     receiver->quiet_us = 0u;
     begin_stream(receiver);

@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from keel.boards.motion import mixed
+
 # The data sheet's example: with these the pressure is 1000.09 mbar and it is 20.07 degrees warm.
 COEFFICIENTS = (40127, 36924, 23317, 23282, 33464, 28312)
 PRESSURE, TEMPERATURE = 9085466, 8569150
@@ -34,6 +36,7 @@ class Ms5611:
     """The barometer. The time is the chip's: the model tells it with each byte."""
 
     there: bool = True
+    noise: int = 8  # Counts; a sensor has some 300, a few Pa.
     words: list[int] = field(default_factory=prom)
     selected: bool = False
     come: list[int] = field(default_factory=list)  # Since it was selected.
@@ -71,5 +74,5 @@ class Ms5611:
         elif command in (0x48, 0x58) and now_us >= self.busy_until_us:
             self.samples += command == 0x48
             raw = PRESSURE if command == 0x48 else TEMPERATURE
-            self.converted = raw + self.samples % 8  # Noise.
+            self.converted = raw + mixed(self.samples, 0) % self.noise
             self.busy_until_us = now_us + CONVERSION_US

@@ -20,14 +20,14 @@ def spi1(pins: Pins) -> Bus:
     return Bus(SPI1, pins, (APB2ENR, 12), 108)
 
 
-# The limits of the buses, and what a unit needs after its supply, are the data sheets'.
+# Limits of buses in MHz, and what a unit needs after its supply in us, are of the data sheets.
 ICM20689 = ("ICM-20689", 8.0, 11_000)
 BMI055 = {"BMI055's gyroscope": ((5, 4), 10.0), "BMI055's accelerometer": ((6, 10), 10.0)}
 
 
 @dataclass(frozen=True)
 class LineWiring:
-    """A UART at a socket: the stream of DMA that takes its bytes, its pin and the pin's function."""
+    """A UART at a socket: the stream of DMA that takes its bytes, its pin with its function."""
 
     uart: str
     dma: int
