@@ -63,21 +63,49 @@ static void send_telemetry(board_lines_t *lines)
     }
 }
 
+static keel_bsp_status_t set_satellites(uint32_t baud)
+{
+    const keel_line_t line = {.baud = baud};
+
+    return keel_chip_line_start(KEEL_LINE_SATELLITES, &line);
+}
+
+static bool send_to_satellites(void *context, uint8_t byte)
+{
+    (void)context;
+    return keel_chip_line_send(KEEL_LINE_SATELLITES, byte);
+}
+
+static void set_satellites_baud(void *context, uint32_t baud)
+{
+    board_lines_t *const lines = context;
+
+    lines->satellites = set_satellites(baud);
+}
+
 void board_lines_start(board_lines_t *lines)
 {
     static const keel_line_t telemetry = {.baud = BOARD_TELEMETRY_BAUD};
+    const uint32_t now_us = keel_board_clock_us(NULL);
 
-    *lines = (board_lines_t){.pilot = KEEL_BSP_ARGUMENT};
-    listen_at(lines, 0u, keel_board_clock_us(NULL));
-    lines->satellites = keel_chip_line_start(KEEL_LINE_SATELLITES, &keel_line_115200);
+    *lines = (board_lines_t){.pilot = KEEL_BSP_ARGUMENT, .stepped_us = now_us};
+    listen_at(lines, 0u, now_us);
+    lines->satellites = set_satellites(BOARD_SATELLITES_BAUD);
+    (void)keel_ublox_begin(&lines->receiver,
+                           (keel_ublox_port_t){send_to_satellites, set_satellites_baud, lines},
+                           BOARD_SATELLITES_BAUD, BOARD_FIX_MS);
     lines->telemetry = keel_chip_line_start(KEEL_LINE_TELEMETRY, &telemetry);
 }
 
-void board_lines_turn(board_lines_t *lines, uint8_t chosen, uint8_t heard, uint32_t now_us)
+void board_lines_turn(board_lines_t *lines, const board_heard_t *heard, uint32_t now_us)
 {
     send_telemetry(lines);
-    if ((heard == COPTER_PROTOCOL_ANY) && ((now_us - lines->since_us) >= BOARD_LISTEN_US)) {
-        search_pilot(lines, chosen, now_us);
+    if ((heard->heard == COPTER_PROTOCOL_ANY) && ((now_us - lines->since_us) >= BOARD_LISTEN_US)) {
+        search_pilot(lines, heard->chosen, now_us);
+    }
+    if (keel_chip_has_line(KEEL_LINE_SATELLITES)) {
+        (void)keel_ublox_step(&lines->receiver, now_us - lines->stepped_us, heard->fixes);
+        lines->stepped_us = now_us;
     }
 }
 

@@ -6,11 +6,13 @@
  *
  * A receiver's protocol tells its bits. As long as the copter has heard none, each protocol's bits
  * are tried at each of the pilot's sockets in turn, BOARD_LISTEN_US each: a receiver that sends is
- * heard within BOARD_LISTEN_US times the number of turns, 3 s on a board with two sockets.
+ * heard within BOARD_LISTEN_US times the number of turns, 3 s on a board with two sockets. The
+ * satellite receiver is set up by ublox.h, unless it sends fixes by itself.
  */
 #ifndef COPTER_BOARD_LINES_H
 #define COPTER_BOARD_LINES_H
 
+#include "devices/ublox.h"
 #include "port.h"
 #include "rc.h"
 #include "stm32f767/target/chip.h"
@@ -26,6 +28,10 @@
 /** Bits per second of the telemetry's socket: those of the radios that are sold with boards. */
 #define BOARD_TELEMETRY_BAUD 57600u
 
+/** Bits per second that the satellite receiver is to send with, and the time between two fixes. */
+#define BOARD_SATELLITES_BAUD 115200u
+#define BOARD_FIX_MS          100u
+
 /** Bytes of telemetry that wait for the line; a power of two. */
 #define BOARD_TELEMETRY_BYTES 1024u
 
@@ -34,6 +40,8 @@ typedef struct board_lines {
     keel_bsp_status_t pilot;      /**< How the pilot's line started last. */
     keel_bsp_status_t satellites; /**< The same of the satellite receiver's. */
     keel_bsp_status_t telemetry;  /**< The same of telemetry's. */
+    keel_ublox_t receiver;        /**< The satellite receiver, as it is set up. */
+    uint32_t stepped_us;          /**< When that had its last step. */
     keel_chip_line_t socket;      /**< That is listened to. */
     uint32_t turn;                /**< Of the search. */
     uint32_t since_us;            /**< When that turn began. */
@@ -45,16 +53,22 @@ typedef struct board_lines {
 /** Starts the lines that the board has. */
 void board_lines_start(board_lines_t *lines);
 
+/** What the copter makes of the bytes of its receivers. */
+typedef struct board_heard {
+    uint8_t chosen; /**< The parameter RC_PROTOCOL: COPTER_PROTOCOL_ANY, or the only one. */
+    uint8_t heard;  /**< The protocol that it hears; COPTER_PROTOCOL_ANY: none yet. */
+    uint32_t fixes; /**< NAV-PVT that it took, as keel_ublox_step counts them. */
+} board_heard_t;
+
 /**
- * Goes on: sends telemetry, and looks for the pilot's receiver. To be called in every turn of the
- * main loop.
+ * Goes on: sends telemetry, looks for the pilot's receiver, and sets up the satellite receiver. To
+ * be called in every turn of the main loop.
  *
  * @param lines  the lines
- * @param chosen the parameter RC_PROTOCOL: COPTER_PROTOCOL_ANY, or the only one to be heard
- * @param heard  the protocol that the copter hears; COPTER_PROTOCOL_ANY: none yet
+ * @param heard  what the copter hears by them
  * @param now_us the time, in us, modulo 2^32
  */
-void board_lines_turn(board_lines_t *lines, uint8_t chosen, uint8_t heard, uint32_t now_us);
+void board_lines_turn(board_lines_t *lines, const board_heard_t *heard, uint32_t now_us);
 
 /** The next byte of a receiver, as copter_port_t's read_byte. */
 bool board_lines_read(board_lines_t *lines, uint32_t receiver, copter_byte_t *byte);

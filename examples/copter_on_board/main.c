@@ -109,6 +109,15 @@ static void start_telemetry(void)
     }
 }
 
+static void turn_lines(void)
+{
+    const board_heard_t heard = {.chosen = copter_settings.rc.protocol,
+                                 .heard = copter.pilot.rc.protocol,
+                                 .fixes = copter.gps.receiver.count.fixes};
+
+    board_lines_turn(&board.lines, &heard, keel_board_clock_us(NULL));
+}
+
 int main(void)
 {
     uint64_t reported_us = 0u;
@@ -127,8 +136,7 @@ int main(void)
     for (;;) {
         require(keel_scheduler_step(&copter.scheduler), FAULT_STEP);
         keel_chip_turn();
-        board_lines_turn(&board.lines, copter_settings.rc.protocol, copter.pilot.rc.protocol,
-                         keel_board_clock_us(NULL));
+        turn_lines();
         if ((copter.scheduler.clock.now_us - reported_us) >= REPORT_EVERY_US) {
             reported_us = copter.scheduler.clock.now_us;
             print_report();

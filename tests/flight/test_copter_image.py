@@ -10,7 +10,7 @@ import json
 import re
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,13 +21,18 @@ from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 from keel.base.errors import ROOT
 from keel.boards import chip_model, firmware, stack
 from keel.boards.board import application_of, read_board
+from keel.boards.built import read_built
 from keel.boards.card import SdCard
 from keel.boards.chip import Chip
+from keel.boards.dma_uart import CRSF, PLAIN, SBUS, Bits
+from keel.boards.motion import Motion
+from keel.boards.packages import load
 from keel.boards.processor import Processor
 from keel.boards.pulses import LOW, Pulse, State
 from keel.boards.rebuilt import SOURCES
 from keel.boards.sockets import read_sockets
 from keel.boards.wiring import WIRINGS
+from keel.flight import device_frames
 from keel.install import Toolchain
 
 __all__ = ["pyfatfs"]  # A fixture.
@@ -113,6 +118,15 @@ def images(tools: Toolchain, sources: Path) -> Path:
     return sources
 
 
+@pytest.fixture(scope="module")
+def pymavlink(tools: Toolchain) -> Any:
+    """The dialect that ground stations speak, by another's decoder."""
+    tools.ensure("mavlink")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MAVLINK20", "1")
+        return load(tools, "mavlink-packages", "pymavlink.dialects.v20.common")
+
+
 def run(
     tools: Toolchain,
     root: Path,
@@ -183,10 +197,12 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
         "imu 2 status 0",
         "imu 3 missing: the board has none",
         "barometer status 0",
-        "magnetometer missing: no driver",
-        "receiver of the pilot missing: no driver",
+        "magnetometer status 0",
         "parameters status 0",
         "card status 1",
+        "receiver of the pilot status 0",
+        "receiver of satellites status 0",
+        "telemetry status 0",
     ):
         assert f"{line}\r\n" in chip.text
     first, second = reports(chip)
@@ -207,6 +223,7 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
         ("other-sensor", "imu 1 status 6"),
         ("second-sensor", "imu 2 status 5"),
         ("barometer", "barometer status 5"),
+        ("magnetometer", "magnetometer status 3"),
         ("memory", "parameters status 5"),
     ],
 )
@@ -220,12 +237,16 @@ def test_what_is_broken_is_named_and_the_rest_runs(
     assert (report["imu1"] == 0) == (broken in ("sensor", "other-sensor"))
     assert (report["imu2"] == 0) == (broken == "second-sensor")
     assert (report["barometer"] == 0) == (broken == "barometer")
+    assert (report["fields"] == 0) == (broken == "magnetometer")
 
 
 def test_a_board_with_less_says_so(tools: Toolchain, images: Path) -> None:
     chip = run(tools, images, "nucleo_f767zi", 1.4)
     for line in (
+        "imu 2 missing: the board has none",
         "barometer missing: the board has none",
+        "magnetometer missing: the board has none",
+        "receiver of the pilot missing: the board has no such line",
         "parameters missing: not kept in flash",
         "card missing: the board has no slot",
     ):
@@ -252,6 +273,100 @@ def test_the_log_is_on_the_card(tools: Toolchain, images: Path, pyfatfs: tuple[A
     assert last_us > 2_000_000
 
 
+# --- Bytes of others, and a board that rests. ---
+
+FRAME_MS, FIX_MS = 14, 100
+PLACE, HEIGHT_M = (47.3977, 8.5456), 500.0
+FIELD = (284, 7, 570)  # There: 21.5 uT along the magnetometer's x, and 43.2 downwards.
+ARM, KILL = 4, 6  # Channels.
+
+
+def resting(root: Path) -> tuple[Chip, bytes, int]:
+    """An FMUv5 on a desk, with two power modules and sensors that have noise; its image."""
+    image = read_built(root, "fmuv5")
+    chip = Chip(WIRINGS["fmuv5"], "", read_sockets(ROOT)["fmuv5"].outputs)
+    chip.step_us = STEP_US
+    for seed, unit in enumerate((chip.sensor, chip.gyroscope, chip.accelerometer)):
+        unit.motion = Motion(noise=2, seed=seed)
+    chip.barometer.noise = 300
+    chip.magnetometer.counts = FIELD
+    chip.counts[2], chip.counts[3] = chip.counts[0], chip.counts[1]
+    return chip, image.binary.read_bytes(), image.address
+
+
+def send_radio(
+    chip: Chip,
+    line: str,
+    until_ms: int,
+    switched: dict[int, int],
+    frame: Callable[[list[int]], bytes] = device_frames.sbus,
+    bits: Bits = SBUS,
+) -> None:
+    """Frames of the pilot's receiver: sticks at rest, throttle low, and switches that are on from a
+    time on, in ms."""
+    for now_ms in range(100, until_ms, FRAME_MS):
+        channels = [1500, 1500, 1000, 1500, 1000, 1500, 1000, 1500]
+        for channel, on_ms in switched.items():
+            channels[channel] = 2000 if now_ms >= on_ms else 1000
+        chip.lines[line].send(1000 * now_ms, frame(channels), bits)
+
+
+def test_the_whole_image_arms_tells_and_stops(
+    tools: Toolchain, images: Path, pymavlink: Any
+) -> None:
+    """From power-on to turning motors and to the kill switch, by all sensors and lines at once."""
+    chip, image, address = resting(images)
+    end_ms, arm_ms, kill_ms = 11_600, 9_600, 11_000
+    send_radio(chip, "spare", end_ms, {ARM: arm_ms, KILL: kill_ms})
+    for now_ms in range(100, end_ms, FIX_MS):
+        fix = device_frames.nav_pvt(100_000 + now_ms, PLACE, HEIGHT_M, (0.0, 0.0, 0.0), 1.0, 0.1)
+        chip.lines["satellites"].send(1000 * now_ms, fix, PLAIN)
+    Processor(tools, image, address, chip).run(1000 * end_ms)
+    last = reports(chip)[-1]
+    assert chip.resets == 0
+    assert (last["radio"], last["state"] > 0) == (1, True), chip.text
+    assert (last["skipped"], last["overruns"], last["failed1"], last["failed2"]) == (0, 0, 0, 0)
+    assert last["fixes"] >= 95
+    for number, log in enumerate(chip.outputs.log):
+        states = [state for _, state in log]
+        pulses = [Pulse(1050, 2500), LOW] if number < 4 else []
+        assert states == ["floats", LOW, *pulses], number
+    started_us, stopped_us = (time for time, _ in chip.outputs.log[0][2:])
+    # Each switch is on for 0.3 s before it counts, behind one frame at most.
+    assert 300_000 <= started_us - 1000 * arm_ms <= 350_000
+    assert 300_000 <= stopped_us - 1000 * kill_ms <= 350_000
+    told = pymavlink.MAVLink(None)
+    messages = told.parse_buffer(bytes(chip.lines["telemetry"].sent))
+    kinds = {message.get_type() for message in messages}
+    assert {"HEARTBEAT", "ATTITUDE", "GPS_RAW_INT", "SYS_STATUS", "RC_CHANNELS"} <= kinds
+    armed = [
+        bool(message.base_mode & pymavlink.MAV_MODE_FLAG_SAFETY_ARMED)
+        for message in messages
+        if message.get_type() == "HEARTBEAT"
+    ]
+    assert armed[0] is False
+    assert True in armed
+    (fix,) = [message for message in messages if message.get_type() == "GPS_RAW_INT"][-1:]
+    assert (fix.lat, fix.lon) == (473_977_000, 85_456_000)
+
+
+@pytest.mark.parametrize(
+    ("line", "frame", "bits", "radio"),
+    [
+        ("pilot", device_frames.crsf, CRSF, 2),
+        ("spare", device_frames.ibus, PLAIN, 3),
+    ],
+)
+def test_the_pilots_receiver_is_looked_for(
+    tools: Toolchain, images: Path, line: str, frame: Any, bits: Bits, radio: int
+) -> None:
+    """At both sockets and with the bits of each protocol, for half a second each."""
+    chip, image, address = resting(images)
+    send_radio(chip, line, 4500, {}, frame, bits)
+    Processor(tools, image, address, chip).run(4_500_000)
+    assert reports(chip)[-1]["radio"] == radio
+
+
 # --- Pulses and axes by the port. ---
 
 
@@ -260,12 +375,13 @@ def turner(
 ) -> Chip:
     board = read_board(root, name)
     made = builder or firmware.Builder(tools, board, root / "build/turner" / name, root)
-    parts = ["examples/turner", "examples/copter_on_board/board_port.c"]
+    own = ("board_port.c", "board_lines.c")
+    parts = ["examples/turner", *(f"examples/copter_on_board/{name}" for name in own)]
     image = made.link("keel", [*made.objects(parts), *made.fatfs()])
     sockets = read_sockets(ROOT)[name].outputs
     chip = Chip(WIRINGS[name], "", sockets)
     chip.step_us = 2
-    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(300_000)
+    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(700_000)
     return chip
 
 

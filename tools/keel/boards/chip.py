@@ -143,6 +143,7 @@ class Chip:
         self.starved = False
         self.armed_us: list[tuple[int, bool]] = []
         self.outputs = Outputs(outputs)
+        self.counts = dict(COUNTS)
         self.converted: list[int] = []  # Channels of the converter, in their order.
         self.exception = 0
         self.fram = Fram(there=broken != "memory")
@@ -539,7 +540,7 @@ class Chip:
             return
         battery = channel == 18 and self.words[ADC_COMMON + 4] & 1 << 22
         resolution = self.words.get(ADC1 + 4, 0) >> 24 & 3
-        self.words[ADC1 + 0x4C] = (BATTERY if battery else COUNTS[channel]) >> 2 * resolution
+        self.words[ADC1 + 0x4C] = (BATTERY if battery else self.counts[channel]) >> 2 * resolution
         self.words[ADC1 + 8] &= ~(1 << 30)
         self.adc.flags |= 0x32 if self.adc.flags & 2 else 0x12  # An end that nobody took: overrun.
 
