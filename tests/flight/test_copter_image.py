@@ -352,10 +352,7 @@ def test_the_whole_image_arms_tells_and_stops(
 
 @pytest.mark.parametrize(
     ("line", "frame", "bits", "radio"),
-    [
-        ("pilot", device_frames.crsf, CRSF, 2),
-        ("spare", device_frames.ibus, PLAIN, 3),
-    ],
+    [("pilot", device_frames.crsf, CRSF, 2), ("spare", device_frames.ibus, PLAIN, 3)],
 )
 def test_the_pilots_receiver_is_looked_for(
     tools: Toolchain, images: Path, line: str, frame: Any, bits: Bits, radio: int
