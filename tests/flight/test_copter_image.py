@@ -23,7 +23,7 @@ from keel.boards import chip_model, firmware, stack
 from keel.boards.board import application_of, read_board
 from keel.boards.built import read_built
 from keel.boards.card import SdCard
-from keel.boards.chip import Chip
+from keel.boards.chip import Chip, ModelError
 from keel.boards.dma_uart import CRSF, PLAIN, SBUS, Bits
 from keel.boards.motion import Motion
 from keel.boards.packages import load
@@ -273,6 +273,12 @@ def test_the_log_is_on_the_card(tools: Toolchain, images: Path, pyfatfs: tuple[A
     assert last_us > 2_000_000
 
 
+PORT, UNITS, PINS = (
+    "examples/copter_on_board/board_port.c",
+    "bsp/stm32f767/target/inertial.c",
+    "bsp/fmuv5/pins.c",
+)
+
 # --- Bytes of others, and a board that rests. ---
 
 FRAME_MS, FIX_MS = 14, 100
@@ -281,9 +287,8 @@ FIELD = (284, 7, 570)  # There: 21.5 uT along the magnetometer's x, and 43.2 dow
 ARM, KILL = 4, 6  # Channels.
 
 
-def resting(root: Path) -> tuple[Chip, bytes, int]:
-    """An FMUv5 on a desk, with two power modules and sensors that have noise; its image."""
-    image = read_built(root, "fmuv5")
+def resting() -> Chip:
+    """An FMUv5 on a desk, with two power modules and sensors that have noise."""
     chip = Chip(WIRINGS["fmuv5"], "", read_sockets(ROOT)["fmuv5"].outputs)
     chip.step_us = STEP_US
     for seed, unit in enumerate((chip.sensor, chip.gyroscope, chip.accelerometer)):
@@ -291,7 +296,13 @@ def resting(root: Path) -> tuple[Chip, bytes, int]:
     chip.barometer.noise = 300
     chip.magnetometer.counts = FIELD
     chip.counts[2], chip.counts[3] = chip.counts[0], chip.counts[1]
-    return chip, image.binary.read_bytes(), image.address
+    return chip
+
+
+def run_built(tools: Toolchain, root: Path, chip: Chip, until_ms: int) -> None:
+    """The whole image, on a chip."""
+    image = read_built(root, "fmuv5")
+    Processor(tools, image.binary.read_bytes(), image.address, chip).run(1000 * until_ms)
 
 
 def send_radio(
@@ -315,13 +326,13 @@ def test_the_whole_image_arms_tells_and_stops(
     tools: Toolchain, images: Path, pymavlink: Any
 ) -> None:
     """From power-on to turning motors and to the kill switch, by all sensors and lines at once."""
-    chip, image, address = resting(images)
+    chip = resting()
     end_ms, arm_ms, kill_ms = 11_600, 9_600, 11_000
     send_radio(chip, "spare", end_ms, {ARM: arm_ms, KILL: kill_ms})
     for now_ms in range(100, end_ms, FIX_MS):
         fix = device_frames.nav_pvt(100_000 + now_ms, PLACE, HEIGHT_M, (0.0, 0.0, 0.0), 1.0, 0.1)
         chip.lines["satellites"].send(1000 * now_ms, fix, PLAIN)
-    Processor(tools, image, address, chip).run(1000 * end_ms)
+    run_built(tools, images, chip, end_ms)
     last = reports(chip)[-1]
     assert chip.resets == 0
     assert (last["radio"], last["state"] > 0) == (1, True), chip.text
@@ -358,10 +369,89 @@ def test_the_pilots_receiver_is_looked_for(
     tools: Toolchain, images: Path, line: str, frame: Any, bits: Bits, radio: int
 ) -> None:
     """At both sockets and with the bits of each protocol, for half a second each."""
-    chip, image, address = resting(images)
+    chip = resting()
     send_radio(chip, line, 4500, {}, frame, bits)
-    Processor(tools, image, address, chip).run(4_500_000)
+    run_built(tools, images, chip, 4500)
     assert reports(chip)[-1]["radio"] == radio
+
+
+def lined(tools: Toolchain, root: Path, builder: firmware.Builder) -> None:
+    """In 1.6 s the pilot is heard at the second socket, fixes and samples of the field come."""
+    board = read_board(root, "fmuv5")
+    parts = application_of(board, "copter").application
+    image = builder.link("keel", [*builder.objects(parts), *builder.fatfs()])
+    chip = resting()
+    send_radio(chip, "spare", 1600, {})
+    for now_ms in range(100, 1600, FIX_MS):
+        fix = device_frames.nav_pvt(now_ms, PLACE, HEIGHT_M, (0.0, 0.0, 0.0), 1.0, 0.1)
+        chip.lines["satellites"].send(1000 * now_ms, fix, PLAIN)
+    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(1_600_000)
+    assert chip.resets == 0
+    (report,) = reports(chip)
+    assert report["radio"] == 1
+    assert report["fixes"] >= 5
+    assert report["fields"] >= 40
+    told, frames = bytes(chip.lines["telemetry"].sent), 0
+    while len(told) > 300:  # The last frames may not be whole.
+        assert told[0] == 0xFD
+        told, frames = told[12 + told[1] :], frames + 1
+    assert frames > 5
+
+
+LINES, FIELDS, OWN_LINES = (
+    "bsp/stm32f767/target/lines.c",
+    "bsp/stm32f767/target/magnetometer.c",
+    "examples/copter_on_board/board_lines.c",
+)
+WRONG_LINES = (
+    (LINES, "place->on_apb2 ? KEEL_APB2_LIMIT_HZ : KEEL_APB1_LIMIT_HZ", "KEEL_APB1_LIMIT_HZ"),
+    (LINES, "RCC_AHB1ENR_DMA1EN | RCC_AHB1ENR_DMA2EN", "RCC_AHB1ENR_DMA1EN"),
+    (LINES, "keel_chip_give(place->rx, KEEL_PULL_NONE);", ""),
+    (LINES, "receiver[KEEL_CHIP_LINES] KEEL_REALTIME_ZERO;", "receiver[KEEL_CHIP_LINES];"),
+    (LINES, "place->on_apb2 ? &RCC->APB2ENR", "!place->on_apb2 ? &RCC->APB2ENR"),
+    (PINS, "KEEL_UART(USART3, APB1, DMA1, 1u, 4u)", "KEEL_UART(USART3, APB1, DMA1, 3u, 4u)"),
+    (PINS, "KEEL_UART(USART1, APB2, DMA2, 5u, 4u)", "KEEL_UART(USART1, APB2, DMA2, 5u, 5u)"),
+    (FIELDS, "keel_pin_alternate_open_drain(place->scl.pin", "keel_pin_alternate(place->scl.pin"),
+    (FIELDS, "keel_bits_enable(&RCC->APB1ENR, RCC_APB1ENR_I2C3EN);", ""),
+    (FIELDS, "keel_i2c_start(I2C3, KEEL_APB1_LIMIT_HZ)", "keel_i2c_start(I2C3, 27000000u)"),
+    (OWN_LINES, "listen_at(lines, lines->turn + i,", "listen_at(lines, lines->turn,"),
+    (OWN_LINES, "(receiver == COPTER_RC)", "(receiver != COPTER_RC)"),
+    (OWN_LINES, "lines->tail++;", "lines->tail += 2u;"),
+)
+
+
+def test_mistakes_in_the_lines_are_noticed(tools: Toolchain, sources: Path) -> None:
+    """By the model, which refuses, or by what does not come."""
+    builder = firmware.Builder(tools, read_board(sources, "fmuv5"), sources / "build/bad", sources)
+    lined(tools, sources, builder)
+    unnoticed = []
+    for path, old, new in WRONG_LINES:
+        with mistaken(sources, builder, path, old, new):
+            try:
+                lined(tools, sources, builder)
+                unnoticed.append(new)
+            except (AssertionError, ModelError):
+                pass
+    assert unnoticed == []
+
+
+@contextlib.contextmanager
+def mistaken(
+    root: Path, builder: firmware.Builder, path: str, old: str, new: str
+) -> Iterator[None]:
+    """A source with a mistake, for a while."""
+    file = root / path
+    text = file.read_text()
+    plain = re.sub(r" +", " ", text)
+    assert plain.count(old) == 1, old
+    file.write_text(plain.replace(old, new))
+    builder.build.made.pop((path,), None)
+    try:
+        builder.object(path)
+        yield
+    finally:
+        file.write_text(text)
+        builder.build.made.pop((path,), None)
 
 
 # --- Pulses and axes by the port. ---
@@ -416,11 +506,6 @@ def test_motors_turn_at_their_sockets_and_samples_are_of_the_body(
     check_turner(turner(tools, sources, board))
 
 
-PORT, UNITS, PINS = (
-    "examples/copter_on_board/board_port.c",
-    "bsp/stm32f767/target/inertial.c",
-    "bsp/fmuv5/pins.c",
-)
 MISTAKES = (
     (PORT, "(PULSE_US * output[i])", "(PULSE_US * output[0])"),
     (PORT, "keel_chip_pulse(i,", "keel_chip_pulse(3u - i,"),
@@ -442,19 +527,8 @@ def test_mistakes_in_the_port_are_noticed(tools: Toolchain, sources: Path) -> No
     builder = firmware.Builder(tools, board, sources / "build/wrong", sources)
     check_turner(turner(tools, sources, "fmuv5", builder))
     for path, old, new in MISTAKES:
-        file = sources / path
-        text = file.read_text()
-        plain = re.sub(r" +", " ", text)
-        assert plain.count(old) == 1, old
-        file.write_text(plain.replace(old, new))
-        try:
-            builder.build.made.pop((path,), None)
-            builder.object(path)
-            with pytest.raises(AssertionError):
-                check_turner(turner(tools, sources, "fmuv5", builder))
-        finally:
-            file.write_text(text)
-            builder.build.made.pop((path,), None)
+        with mistaken(sources, builder, path, old, new), pytest.raises(AssertionError):
+            check_turner(turner(tools, sources, "fmuv5", builder))
 
 
 @pytest.mark.parametrize("mounting", ["2, 1, 3)", "1, 1, 3)", "1, 2, 4)", "0, 2, 3)"])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from keel.base.errors import ToolError
-from keel.boards.dma_uart import UARTS, Line
+from keel.boards.dma_uart import UARTS, DmaUartError, Line
 from keel.boards.i2c import I2c
 from keel.boards.spi import Pin
 from keel.boards.wiring import AHB1ENR, APB1ENR, LineWiring
@@ -66,7 +66,7 @@ class DmaBlock:
         if offset >= STREAMS:
             stream, register = divmod(offset - STREAMS, STREAM_SIZE)
             if stream not in self.lines:
-                raise ToolError(f"stream {stream} of a DMA is used, which nothing asks for")
+                raise DmaUartError(f"stream {stream} of a DMA is used, which hears no line")
             self.lines[stream].write_stream(register, value, now_us)
         elif offset in (8, 0xC):
             for line, place in self._of(offset - 8):

@@ -13,7 +13,8 @@ from keel.boards.bmi055 import ACCELEROMETER_ID, GYROSCOPE_ID, Bmi055Part
 from keel.boards.card import CardError, CardHost, SdCard
 from keel.boards.dma_uart import UARTS, DmaUartError
 from keel.boards.fram import Fram
-from keel.boards.i2c import I2c, I2cError
+from keel.boards.i2c import CR2 as I2C_CR2
+from keel.boards.i2c import START, I2c, I2cError
 from keel.boards.icm20689 import IDENTITY, OTHER, Icm20689
 from keel.boards.ist8310 import ADDRESS as IST8310_ADDRESS
 from keel.boards.ist8310 import Ist8310
@@ -84,6 +85,7 @@ OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
 FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
 CORE_MHZ = 216
+I2C_FUNCTION = 4  # Of the pins of I2C 3.
 SENSORS = ("sensor", "other-sensor", "second-sensor")  # Without the first, or another, …
 BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", "magnetometer", *SENSORS)
 
@@ -283,10 +285,18 @@ class Chip:
         try:
             if value is None:
                 return self.attached.read(base, offset, self.time_us)
+            if base == I2C3 and offset == I2C_CR2 and value & START:
+                self._check_i2c_pins()
             self.attached.write(base, offset, value, self.time_us)
         except (ClockError, DmaUartError, I2cError) as error:
             raise ModelError(str(error)) from error
         return 0
+
+    def _check_i2c_pins(self) -> None:
+        for pin in self.i2c_pins or ():
+            open_drain = self.words.get(GPIOA + 0x400 * pin[0] + 4, 0) >> pin[1] & 1
+            if self._function_of(pin) != I2C_FUNCTION or not open_drain:
+                raise ModelError("a transfer begins, but a pin is not the I2C's, or pushes")
 
     def _inputs(self, port: int) -> int:
         """What pins read, as far as anything is joined to them: the lines of the I2C."""
