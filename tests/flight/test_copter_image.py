@@ -10,7 +10,7 @@ import json
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,18 +21,13 @@ from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 from keel.base.errors import ROOT
 from keel.boards import chip_model, firmware, stack
 from keel.boards.board import application_of, read_board
-from keel.boards.built import read_built
 from keel.boards.card import SdCard
-from keel.boards.chip import Chip, ModelError
-from keel.boards.dma_uart import CRSF, PLAIN, SBUS, Bits
-from keel.boards.motion import Motion
-from keel.boards.packages import load
+from keel.boards.chip import Chip
 from keel.boards.processor import Processor
 from keel.boards.pulses import LOW, Pulse, State
 from keel.boards.rebuilt import SOURCES
 from keel.boards.sockets import read_sockets
 from keel.boards.wiring import WIRINGS
-from keel.flight import device_frames
 from keel.install import Toolchain
 
 __all__ = ["pyfatfs"]  # A fixture.
@@ -116,15 +111,6 @@ def images(tools: Toolchain, sources: Path) -> Path:
         with contextlib.redirect_stdout(io.StringIO()):
             assert firmware.main([board, "--named", "copter"], sources) == 0
     return sources
-
-
-@pytest.fixture(scope="module")
-def pymavlink(tools: Toolchain) -> Any:
-    """The dialect that ground stations speak, by another's decoder."""
-    tools.ensure("mavlink")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MAVLINK20", "1")
-        return load(tools, "mavlink-packages", "pymavlink.dialects.v20.common")
 
 
 def run(
@@ -278,161 +264,6 @@ PORT, UNITS, PINS = (
     "bsp/stm32f767/target/inertial.c",
     "bsp/fmuv5/pins.c",
 )
-
-# --- Bytes of others, and a board that rests. ---
-
-FRAME_MS, FIX_MS = 14, 100
-PLACE, HEIGHT_M = (47.3977, 8.5456), 500.0
-FIELD = (284, 7, 570)  # There: 21.5 uT along the magnetometer's x, and 43.2 downwards.
-ARM, KILL = 4, 6  # Channels.
-
-
-def resting() -> Chip:
-    """An FMUv5 on a desk, with two power modules and sensors that have noise."""
-    chip = Chip(WIRINGS["fmuv5"], "", read_sockets(ROOT)["fmuv5"].outputs)
-    chip.step_us = STEP_US
-    for seed, unit in enumerate((chip.sensor, chip.gyroscope, chip.accelerometer)):
-        unit.motion = Motion(noise=2, seed=seed)
-    chip.barometer.noise = 300
-    chip.magnetometer.counts = FIELD
-    chip.counts[2], chip.counts[3] = chip.counts[0], chip.counts[1]
-    return chip
-
-
-def run_built(tools: Toolchain, root: Path, chip: Chip, until_ms: int) -> None:
-    """The whole image, on a chip."""
-    image = read_built(root, "fmuv5")
-    Processor(tools, image.binary.read_bytes(), image.address, chip).run(1000 * until_ms)
-
-
-def send_radio(
-    chip: Chip,
-    line: str,
-    until_ms: int,
-    switched: dict[int, int],
-    frame: Callable[[list[int]], bytes] = device_frames.sbus,
-    bits: Bits = SBUS,
-) -> None:
-    """Frames of the pilot's receiver: sticks at rest, throttle low, and switches that are on from a
-    time on, in ms."""
-    for now_ms in range(100, until_ms, FRAME_MS):
-        channels = [1500, 1500, 1000, 1500, 1000, 1500, 1000, 1500]
-        for channel, on_ms in switched.items():
-            channels[channel] = 2000 if now_ms >= on_ms else 1000
-        chip.lines[line].send(1000 * now_ms, frame(channels), bits)
-
-
-def test_the_whole_image_arms_tells_and_stops(
-    tools: Toolchain, images: Path, pymavlink: Any
-) -> None:
-    """From power-on to turning motors and to the kill switch, by all sensors and lines at once."""
-    chip = resting()
-    end_ms, arm_ms, kill_ms = 11_600, 9_600, 11_000
-    send_radio(chip, "spare", end_ms, {ARM: arm_ms, KILL: kill_ms})
-    for now_ms in range(100, end_ms, FIX_MS):
-        fix = device_frames.nav_pvt(100_000 + now_ms, PLACE, HEIGHT_M, (0.0, 0.0, 0.0), 1.0, 0.1)
-        chip.lines["satellites"].send(1000 * now_ms, fix, PLAIN)
-    run_built(tools, images, chip, end_ms)
-    last = reports(chip)[-1]
-    assert chip.resets == 0
-    assert (last["radio"], last["state"] > 0) == (1, True), chip.text
-    assert (last["skipped"], last["overruns"], last["failed1"], last["failed2"]) == (0, 0, 0, 0)
-    assert last["fixes"] >= 95
-    for number, log in enumerate(chip.outputs.log):
-        states = [state for _, state in log]
-        pulses = [Pulse(1050, 2500), LOW] if number < 4 else []
-        assert states == ["floats", LOW, *pulses], number
-    started_us, stopped_us = (time for time, _ in chip.outputs.log[0][2:])
-    # Each switch is on for 0.3 s before it counts, behind one frame at most.
-    assert 300_000 <= started_us - 1000 * arm_ms <= 350_000
-    assert 300_000 <= stopped_us - 1000 * kill_ms <= 350_000
-    told = pymavlink.MAVLink(None)
-    messages = told.parse_buffer(bytes(chip.lines["telemetry"].sent))
-    kinds = {message.get_type() for message in messages}
-    assert {"HEARTBEAT", "ATTITUDE", "GPS_RAW_INT", "SYS_STATUS", "RC_CHANNELS"} <= kinds
-    armed = [
-        bool(message.base_mode & pymavlink.MAV_MODE_FLAG_SAFETY_ARMED)
-        for message in messages
-        if message.get_type() == "HEARTBEAT"
-    ]
-    assert armed[0] is False
-    assert True in armed
-    (fix,) = [message for message in messages if message.get_type() == "GPS_RAW_INT"][-1:]
-    assert (fix.lat, fix.lon) == (473_977_000, 85_456_000)
-
-
-@pytest.mark.parametrize(
-    ("line", "frame", "bits", "radio"),
-    [("pilot", device_frames.crsf, CRSF, 2), ("spare", device_frames.ibus, PLAIN, 3)],
-)
-def test_the_pilots_receiver_is_looked_for(
-    tools: Toolchain, images: Path, line: str, frame: Any, bits: Bits, radio: int
-) -> None:
-    """At both sockets and with the bits of each protocol, for half a second each."""
-    chip = resting()
-    send_radio(chip, line, 4500, {}, frame, bits)
-    run_built(tools, images, chip, 4500)
-    assert reports(chip)[-1]["radio"] == radio
-
-
-def lined(tools: Toolchain, root: Path, builder: firmware.Builder) -> None:
-    """In 1.6 s the pilot is heard at the second socket, fixes and samples of the field come."""
-    board = read_board(root, "fmuv5")
-    parts = application_of(board, "copter").application
-    image = builder.link("keel", [*builder.objects(parts), *builder.fatfs()])
-    chip = resting()
-    send_radio(chip, "spare", 1600, {})
-    for now_ms in range(100, 1600, FIX_MS):
-        fix = device_frames.nav_pvt(now_ms, PLACE, HEIGHT_M, (0.0, 0.0, 0.0), 1.0, 0.1)
-        chip.lines["satellites"].send(1000 * now_ms, fix, PLAIN)
-    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(1_600_000)
-    assert chip.resets == 0
-    (report,) = reports(chip)
-    assert report["radio"] == 1
-    assert report["fixes"] >= 5
-    assert report["fields"] >= 40
-    told, frames = bytes(chip.lines["telemetry"].sent), 0
-    while len(told) > 300:  # The last frames may not be whole.
-        assert told[0] == 0xFD
-        told, frames = told[12 + told[1] :], frames + 1
-    assert frames > 5
-
-
-LINES, FIELDS, OWN_LINES = (
-    "bsp/stm32f767/target/lines.c",
-    "bsp/stm32f767/target/magnetometer.c",
-    "examples/copter_on_board/board_lines.c",
-)
-WRONG_LINES = (
-    (LINES, "place->on_apb2 ? KEEL_APB2_LIMIT_HZ : KEEL_APB1_LIMIT_HZ", "KEEL_APB1_LIMIT_HZ"),
-    (LINES, "RCC_AHB1ENR_DMA1EN | RCC_AHB1ENR_DMA2EN", "RCC_AHB1ENR_DMA1EN"),
-    (LINES, "keel_chip_give(place->rx, KEEL_PULL_NONE);", ""),
-    (LINES, "receiver[KEEL_CHIP_LINES] KEEL_REALTIME_ZERO;", "receiver[KEEL_CHIP_LINES];"),
-    (LINES, "place->on_apb2 ? &RCC->APB2ENR", "!place->on_apb2 ? &RCC->APB2ENR"),
-    (PINS, "KEEL_UART(USART3, APB1, DMA1, 1u, 4u)", "KEEL_UART(USART3, APB1, DMA1, 3u, 4u)"),
-    (PINS, "KEEL_UART(USART1, APB2, DMA2, 5u, 4u)", "KEEL_UART(USART1, APB2, DMA2, 5u, 5u)"),
-    (FIELDS, "keel_pin_alternate_open_drain(place->scl.pin", "keel_pin_alternate(place->scl.pin"),
-    (FIELDS, "keel_bits_enable(&RCC->APB1ENR, RCC_APB1ENR_I2C3EN);", ""),
-    (FIELDS, "keel_i2c_start(I2C3, KEEL_APB1_LIMIT_HZ)", "keel_i2c_start(I2C3, 27000000u)"),
-    (OWN_LINES, "listen_at(lines, lines->turn + i,", "listen_at(lines, lines->turn,"),
-    (OWN_LINES, "(receiver == COPTER_RC)", "(receiver != COPTER_RC)"),
-    (OWN_LINES, "lines->tail++;", "lines->tail += 2u;"),
-)
-
-
-def test_mistakes_in_the_lines_are_noticed(tools: Toolchain, sources: Path) -> None:
-    """By the model, which refuses, or by what does not come."""
-    builder = firmware.Builder(tools, read_board(sources, "fmuv5"), sources / "build/bad", sources)
-    lined(tools, sources, builder)
-    unnoticed = []
-    for path, old, new in WRONG_LINES:
-        with mistaken(sources, builder, path, old, new):
-            try:
-                lined(tools, sources, builder)
-                unnoticed.append(new)
-            except (AssertionError, ModelError):
-                pass
-    assert unnoticed == []
 
 
 @contextlib.contextmanager
