@@ -105,8 +105,9 @@ firmware: python ## build a board's image (BOARD=fmuv5; APP=copter: the copter; 
 flash: python ## write a board's image to the board (BOARD=nucleo_f767zi; ARGS='--tool st-flash')
 	@python3 tools/keel flash "$(BOARD)" $(ARGS)
 
-fly: python ## fly the copter in plants that others wrote (SCENARIO=hover: one; SEED=7: one of check NAME=flights)
-	@python3 tools/keel fly $(if $(SCENARIO),--scenario "$(SCENARIO)") \
+fly: python ## fly the copter in plants that others wrote (SCENARIO=hover: one; SEED=7; BOARD=fmuv5: its image)
+	@python3 tools/keel fly $(if $(BOARD),--board "$(BOARD)") \
+	    $(if $(SCENARIO),--scenario "$(SCENARIO)") \
 	    $(if $(SEED),--seed "$(SEED)") $(if $(JOBS),--jobs "$(JOBS)") $(ARGS)
 
 sim: python ## fly the copter in real time with MAVLink at UDP 14550 (ADDRESS=127.0.0.1:14550; SCENARIO=wind)

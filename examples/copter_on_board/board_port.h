@@ -48,9 +48,11 @@ typedef struct board_port {
     uint32_t stepped_us;      /**< When it was stepped last. */
     uint32_t fields;          /**< Samples of the magnetometer. */
     uint32_t looked_us;       /**< When it was stepped last. */
-    uint32_t measured;        /**< Conversions of the power modules. */
-    uint32_t supply_mv;       /**< The chip's supply; 0: not known yet. */
-    bool wants_temperature;   /**< The chip's temperature is measured next. */
+    uint32_t stack_free_b;    /**< Bytes of the stack that were never used, as it was found last. */
+    const uint32_t *stack_looked; /**< Up to where the stack is known to be unused now. */
+    uint32_t measured;            /**< Conversions of the power modules. */
+    uint32_t supply_mv;           /**< The chip's supply; 0: not known yet. */
+    bool wants_temperature;       /**< The chip's temperature is measured next. */
     keel_ms5611_device_t barometer;
     keel_ist8310_t magnetometer;
     keel_mounting_t mounting; /**< Of the magnetometer. */

@@ -93,16 +93,14 @@ class Attached:
         function_of: Callable[[Pin], int | None],
         store: Callable[[int, int], None],
     ) -> None:
+        def joined(wiring: LineWiring) -> Callable[[], bool]:
+            return lambda: function_of(wiring.rx) == wiring.function
+
         self.clocked = clocked
         self.i2c = i2c
         self.lines = {
             name: Line(
-                wiring.uart,
-                wiring.dma,
-                wiring.stream,
-                wiring.clock_hz,
-                store,
-                lambda wiring=wiring: function_of(wiring.rx) == wiring.function,
+                wiring.uart, wiring.dma, wiring.stream, wiring.clock_hz, store, joined(wiring)
             )
             for name, wiring in wirings.items()
         }

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fly examples/copter in models of an aircraft that others wrote, and judge the flights.
 
-    python3 tools/keel fly [--scenario NAME] [--plant jsbsim]
+    python3 tools/keel fly [--scenario NAME] [--plant jsbsim] [--board fmuv5]
 
 build/fly gets fly.json (every flight, its errors, limits and the SHA-256 of its trace) and a
 picture of each flight. With --scenario the report is named after it. --seed flies a flight of
 `make check NAME=flights` again and draws it. With either, or with --logs, there is the
 flight's log, too, for `make log`; with --trace it has each run of each task, and stands beside its
 two files of `make generate NAME=schedule`.
+
+With --board the very image of a board flies, on a model of its chip and its devices: the same
+scenarios, the same judge, the same limits. Units there are as many as the board has; its slot is
+empty, so there is no log.
 
 Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
 not, 2 when it could not be flown.
@@ -23,7 +27,7 @@ from pathlib import Path
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import write_json
-from keel.flight import library, plants, scenario, tables
+from keel.flight import board, library, plants, scenario, tables
 from keel.flight.crew import Job, Outcome, all_flown
 from keel.flight.loop import Order
 from keel.flight.varied import order_of
@@ -50,6 +54,9 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--plant", choices=plants.NAMES, help="in this one only")
     parser.add_argument(
+        "--board", choices=board.BOARDS, help="fly its image in place of the host's copter"
+    )
+    parser.add_argument(
         "--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="flights at a time"
     )
     parser.add_argument(
@@ -69,6 +76,8 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     found = parser.parse_args(arguments)
     if found.seed is not None and (found.scenario or found.plant):
         raise ToolError("--seed: says scenario and plant by itself")
+    if found.board and (found.logs or found.trace):
+        raise ToolError("--board: its slot is empty, there is no log")
     if found.jobs < 1:
         raise ToolError(f"--jobs: expected 1 or more, found {found.jobs}")
     return found
@@ -79,7 +88,7 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
     if options.seed is not None:
         name = report_name(options)
         picture = None if options.no_pictures else options.build / f"{name}.svg"
-        log = options.build / f"{name}.ulg"
+        log = None if options.board else options.build / f"{name}.ulg"
         return [Job(name, order_of(options.seed), copter, picture, log, options.trace)]
     known = scenario.names(options.scenarios)
     names = [options.scenario] if options.scenario else known
@@ -90,9 +99,11 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
         found = scenario.read(name, options.scenarios)
         for plant in found.plants:
             if options.plant in (None, plant):
-                picture = None if options.no_pictures else options.build / f"{name}-{plant}.svg"
+                made = f"{prefix(options)}{name}-{plant}"
+                picture = None if options.no_pictures else options.build / f"{made}.svg"
                 wanted = options.logs or options.scenario or options.trace
-                log = options.build / f"{name}-{plant}.ulg" if wanted else None
+                wanted = wanted and not options.board
+                log = options.build / f"{made}.ulg" if wanted else None
                 jobs.append(
                     Job(name, Order(found, plant, found.seed), copter, picture, log, options.trace)
                 )
@@ -101,11 +112,30 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
     return jobs
 
 
+def prefix(options: argparse.Namespace) -> str:
+    """What names begin with: a board's flights have names of their own."""
+    return f"{options.board}-" if options.board else ""
+
+
 def report_name(options: argparse.Namespace) -> str:
     """What the report is called."""
     if options.seed is not None:
-        return f"seed-{options.seed}"
-    return str(options.scenario or "fly")
+        return f"{prefix(options)}seed-{options.seed}"
+    return prefix(options) + str(options.scenario or "fly")
+
+
+def library_of(options: argparse.Namespace) -> Path:
+    """Where the copter's library is made."""
+    folder: Path = options.build
+    return folder / options.board / board.LIBRARY if options.board else folder / "libcopter.so"
+
+
+def build(options: argparse.Namespace) -> None:
+    """The copter that flies, made anew."""
+    if options.board:
+        board.build(Toolchain(), options.board, library_of(options).parent)
+    else:
+        library.build(Toolchain(), options.build)
 
 
 def all_outcomes(jobs: Sequence[Job], width: int) -> list[Outcome]:
@@ -139,21 +169,25 @@ def tell(outcomes: Sequence[Outcome], report: Path, one: bool) -> None:
 def fly(arguments: Sequence[str] | None) -> int:
     """Build, fly, write, tell."""
     options = parsed(arguments)
-    jobs = jobs_of(options, options.build / "libcopter.so")
+    jobs = jobs_of(options, library_of(options))
     report: Path = options.build / f"{report_name(options)}.json"
     report.unlink(missing_ok=True)  # What an older run found is not what this one finds.
-    library.build(Toolchain(), options.build)
+    build(options)
     outcomes = all_outcomes(jobs, options.jobs)
     write_json(
         report,
         {
             "schema": SCHEMA,
+            "board": options.board,
             "sources_sha256": library.digest_of(),
             "good": all(outcome.good for outcome in outcomes),
             "flights": [outcome.as_json() for outcome in outcomes],
         },
     )
-    tell(outcomes, report, report_name(options) != "fly")
+    if options.board:
+        print(f"fly: the image of {options.board} on a model of its chip")
+    one = options.scenario is not None or options.seed is not None
+    tell(outcomes, report, one)
     for job in jobs:
         if job.trace and job.log:
             schedule.tell(job.log)

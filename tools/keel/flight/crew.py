@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from keel.base.errors import ToolError
-from keel.flight import judge, plots
+from keel.flight import board, judge, plots
 from keel.flight.library import Copter
 from keel.flight.loop import Order, Trace, fly, state_names, without_faults
 
@@ -76,7 +76,7 @@ class Outcome:
 def copter_of(library: Path) -> Copter:
     """The copter of this process."""
     if str(library) not in COPTERS:
-        COPTERS[str(library)] = Copter(library)
+        COPTERS[str(library)] = board.made_of(library)
     return COPTERS[str(library)]
 
 

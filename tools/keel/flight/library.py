@@ -111,10 +111,11 @@ def kind_size(kind: Any) -> int:
     return int(last.offset) + int(np.dtype(layout(last.type)).itemsize)
 
 
-def declared() -> Any:
-    """cffi with all that sim.h has."""
+def declared(headers: Sequence[str] = (SIM,)) -> Any:
+    """cffi with all that headers have."""
     ffi = cffi.FFI()
-    ffi.cdef(declarations(read_text(ROOT / SIM)))
+    for header in headers:
+        ffi.cdef(declarations(read_text(ROOT / header)))
     return ffi
 
 
@@ -147,8 +148,10 @@ class Key:
 class Copter:
     """The library in this process."""
 
+    headers: Sequence[str] = (SIM,)  # Of what may be called.
+
     def __init__(self, path: Path) -> None:
-        self._ffi = declared()
+        self._ffi = declared(self.headers)
         try:
             self._library: Any = self._ffi.dlopen(str(path))
         except OSError as error:
@@ -214,6 +217,13 @@ class Copter:
         if status := self._library.sim_start(options):
             raise ToolError(f"the copter does not start: status {status}")
         self.look()
+
+    def hear(self, radio: str) -> None:
+        """How the pilot's receiver sends: the host's copter sees bytes, not their bits."""
+
+    def why(self, status: int) -> str:
+        """Why it did not go on."""
+        return f"the scheduler refused to go on: status {status}"
 
     def set(self, name: str, value: float) -> None:
         """Set a parameter, which the memory keeps for the next start."""

@@ -137,6 +137,7 @@ class Flight:
             self._folder = tempfile.TemporaryDirectory(prefix="keel-parameters-")
             keep = Path(self._folder.name) / "memory"
         start_with(copter, scenario, links, key, keep)
+        copter.hear(scenario.radio)
         seeds = np.random.SeedSequence(order.seed).spawn(4)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         self._plant: Plant = plants.make(order.plant, airframe_of(order), scenario.heading_deg)
@@ -215,7 +216,7 @@ class Flight:
         if now_ms % self._radio_ms == 0:
             self._send(now_ms, time_s, broken)
         if status := copter.run_until(1000 * now_ms):
-            raise NotFlown(f"the scheduler refused to go on at {time_s:.3f} s: status {status}")
+            raise NotFlown(f"at {time_s:.3f} s: {copter.why(status)}")
         copter.look()
         scale = self._battery.voltage / plants.NOMINAL_V
         self._motors = [

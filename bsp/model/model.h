@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file model.h
+ * @brief An FMUv5 for a plant: the parts of the model, and what they share.
+ *
+ * Time is counted in ticks, of which a core at 216 MHz has two a cycle. It passes by the
+ * instructions of basic blocks, one a cycle, by accesses to peripherals, and by what buses take. It
+ * never passes a limit, at which the plant moves: whoever waits for longer looks again behind it.
+ *
+ * There is one board in a process.
+ */
+#ifndef MODEL_H
+#define MODEL_H
+
+#include "sim.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define MODEL_TICKS_PER_US 432u
+#define MODEL_TEXT         65536u /* What is kept of the console. */
+#define MODEL_PROBLEM      256u
+
+#define MODEL_CHIP      0x40000000u /* Registers of the chip's peripherals, … */
+#define MODEL_CHIP_SIZE 0x80000u
+#define MODEL_CORE      0xE0000000u /* … and of the core's. */
+#define MODEL_CORE_SIZE 0x100000u
+#define MODEL_DTCM      0x20000000u
+#define MODEL_DTCM_SIZE 0x20000u
+
+/** @name Time. It is looked at with each block of instructions. */
+/** @{ */
+
+/** The time, and what ends a flight. */
+typedef struct model_clock {
+    uint64_t now;   /**< Ticks since power-up. */
+    uint64_t limit; /**< Up to where time may pass. */
+    bool failed;    /**< There is a problem: model_problem() has it. */
+} model_clock_t;
+
+extern model_clock_t model_clock;
+
+/** Ticks since power-up. */
+static inline uint64_t model_now(void)
+{
+    return model_clock.now;
+}
+
+/** Microseconds since power-up. */
+static inline uint64_t model_now_us(void)
+{
+    return model_clock.now / MODEL_TICKS_PER_US;
+}
+
+/** Whether the limit is reached. */
+static inline bool model_time_is_up(void)
+{
+    return model_clock.now >= model_clock.limit;
+}
+
+/** Lets time pass. */
+static inline void model_pass(uint64_t ticks)
+{
+    model_clock.now += ticks;
+}
+
+/** Waits for a time, but no longer than to the limit.
+ * @return whether that time has come */
+static inline bool model_wait(uint64_t ticks)
+{
+    const uint64_t reached = (ticks < model_clock.limit) ? ticks : model_clock.limit;
+
+    model_clock.now = (model_clock.now < reached) ? reached : model_clock.now;
+    return model_clock.now >= ticks;
+}
+
+/** Begins a flight: it is time 0, and nothing is wrong. */
+void model_clock_start(void);
+
+/** Up to where time may pass, in ticks. */
+void model_clock_limit(uint64_t ticks);
+
+/** Notes what the image did that must not be, or what broke; the first one counts. */
+void model_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/** Why the board cannot go on; empty: it can. */
+const char *model_problem(void);
+/** @} */
+
+/** @name The processor, with its memories. */
+/** @{ */
+
+/** Loads an image and powers up.
+ * @return whether that went well */
+bool model_processor_start(const char *path, uint32_t address);
+
+/** Runs it until the limit of time, or until something is wrong. */
+void model_processor_run(void);
+
+/** A place in its memories, or null when there are not so many bytes there. */
+uint8_t *model_memory(uint32_t address, uint32_t size);
+
+/** The protection of memory is switched: guards hold while it is on. */
+void model_guard(bool on);
+
+/** A reset is asked for. */
+void model_reset(void);
+
+/** A function of the image at whose entry time passes: the end of a task's run, with the task as
+ * its second argument. */
+void model_watch(uint32_t address);
+
+/** Makes the next runs of a task longer. */
+void model_delay(uint32_t task, uint32_t runs, uint32_t extra_us);
+/** @} */
+
+/** @name Registers. */
+/** @{ */
+
+/** As a reset leaves them. */
+void model_registers_reset(void);
+
+/** A register of a peripheral, or of the core, is read: bytes of it. */
+uint32_t model_read(uint32_t address, uint32_t size);
+
+/** The same for writing. */
+void model_write(uint32_t address, uint32_t size, uint32_t value);
+
+/** The registers of the chip, and of its core, as they were written last. */
+extern uint32_t model_chip[MODEL_CHIP_SIZE / sizeof(uint32_t)];
+extern uint32_t model_core[MODEL_CORE_SIZE / sizeof(uint32_t)];
+
+/** A register's word, as it was written last. */
+static inline uint32_t *model_word(uint32_t address)
+{
+    return (address >= MODEL_CORE) ? &model_core[(address - MODEL_CORE) / sizeof(uint32_t)]
+                                   : &model_chip[(address - MODEL_CHIP) / sizeof(uint32_t)];
+}
+
+/** Whether a pin is an output that is low. */
+bool model_pin_is_low(uint32_t port, uint32_t pin);
+
+/** Whether a pin has an alternate function, and which. */
+bool model_pin_has(uint32_t port, uint32_t pin, uint32_t function);
+
+/** The pulse that leaves an output of FMU_CH1 to FMU_CH4, from 0 on, in us; 0: none. */
+uint32_t model_pulse_us(uint32_t output);
+
+/** The ticks of an instruction at the core's clock now. */
+extern uint32_t model_instruction_ticks;
+
+/** Whether the watchdog was fed in time until now; it is when it does not run. */
+bool model_is_fed(void);
+
+/** Whether the watchdog runs: behind its start the main loop begins. */
+bool model_is_up(void);
+
+/** What the board said on its console. */
+const char *model_text(void);
+/** @} */
+
+/** @name Buses: SPI 1, 2 and 4, and I2C 3. */
+/** @{ */
+void model_buses_reset(void);
+uint32_t model_spi_read(uint32_t base, uint32_t offset);
+void model_spi_write(uint32_t base, uint32_t offset, uint32_t value);
+uint32_t model_i2c_read(uint32_t offset);
+void model_i2c_write(uint32_t offset, uint32_t value);
+
+/** Pins have changed: what is selected by them, is. */
+void model_select(void);
+/** @} */
+
+/** @name Devices at the buses. Each holds what the plant said last. */
+/** @{ */
+
+/** The devices at the SPIs. */
+typedef enum model_device {
+    MODEL_ICM20689,
+    MODEL_GYROSCOPE,     /**< Of the BMI055. */
+    MODEL_ACCELEROMETER, /**< Of the BMI055. */
+    MODEL_FRAM,
+    MODEL_MS5611,
+    MODEL_DEVICES
+} model_device_t;
+
+/** Power up: all are silent. */
+void model_devices_start(void);
+
+/** What the plant says now. */
+sim_sensors_t *model_sensors(void);
+
+/** The devices see how far the plant's counts have moved: one whose count stands is silent. */
+void model_devices_turn(void);
+
+/** A device is selected, or no longer. */
+void model_device_select(model_device_t device, bool selected);
+
+/** A byte each way. */
+uint8_t model_device_exchange(model_device_t device, uint8_t byte);
+
+/** The magnetometer is addressed. */
+void model_field_begin(bool reads);
+
+/** A byte to it. */
+void model_field_take(uint8_t byte);
+
+/** A byte from it. */
+uint8_t model_field_give(void);
+
+/** What ADC1 counts on a channel. */
+uint32_t model_count(uint32_t channel);
+
+/** The memory of parameters: its bytes. */
+uint8_t *model_fram(void);
+#define MODEL_FRAM_BYTES 32768u
+
+/** Whether something was written to it since this was asked last. */
+bool model_fram_has_changed(void);
+/** @} */
+
+/** @name UARTs, each with the stream of DMA that takes its bytes, and who sends. */
+/** @{ */
+
+/** The lines. */
+typedef enum model_line {
+    MODEL_PILOT,      /**< USART 6. */
+    MODEL_SPARE,      /**< USART 3. */
+    MODEL_SATELLITES, /**< USART 1. */
+    MODEL_TELEMETRY,  /**< USART 2. */
+    MODEL_LINES
+} model_line_t;
+
+/** How somebody sends bytes of 8 bits. */
+typedef struct model_bits {
+    uint32_t baud;
+    bool even_parity;
+    bool two_stops;
+    bool inverted;
+} model_bits_t;
+
+/** Power up: nothing is on its way. */
+void model_lines_start(void);
+
+/** As a reset of the chip leaves them. */
+void model_lines_reset(void);
+
+/** How the pilot's receiver sends. */
+void model_pilot_sends(const model_bits_t *bits);
+
+/** Whether an address is a register of a UART of a line, and of which. */
+bool model_is_uart(uint32_t address, model_line_t *line);
+
+uint32_t model_uart_read(model_line_t line, uint32_t offset);
+void model_uart_write(model_line_t line, uint32_t offset, uint32_t value);
+uint32_t model_dma_read(uint32_t dma, uint32_t offset);
+void model_dma_write(uint32_t dma, uint32_t offset, uint32_t value);
+
+/** Bytes for the telemetry's line, and from it. */
+uint32_t model_telemetry_send(const uint8_t *bytes, uint32_t size);
+uint32_t model_telemetry_receive(uint8_t *bytes, uint32_t size);
+/** @} */
+
+#endif

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The image of FMUv5 flies on a model of its chip as the host's copter does."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import math
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from keel.base.errors import ROOT, ToolError
+from keel.boards.dwarf import Variables
+from keel.flight import board, judge, loop, scenario
+from keel.flight.board import BoardCopter
+from keel.flight.library import Copter, Link
+from keel.flight.loop import Flight, Order, Trace
+from keel.flight.pilot import Pilot, Sight
+from keel.install import Toolchain
+
+PARTS = ("bsp", "include", "src", "examples", "specs")
+ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
+ARMS_S = 9.6
+
+
+@pytest.fixture(scope="module")
+def made() -> Iterator[Path]:
+    """The image and its library, of a copy of the sources: they do not replace the user's."""
+    with tempfile.TemporaryDirectory(prefix="keel-test-") as name:
+        root = Path(name, "root")
+        for part in PARTS:
+            shutil.copytree(ROOT / part, root / part)
+        with contextlib.redirect_stdout(io.StringIO()):
+            yield board.build(Toolchain(), "fmuv5", Path(name, "made"), root)
+
+
+@pytest.fixture
+def flown(made: Path) -> BoardCopter:
+    """The board's copter, which any other of this process is, too."""
+    return BoardCopter(made)
+
+
+def rest(copter: BoardCopter, from_ms: int, to_ms: int, silent: int | None = None) -> int:
+    """On the ground, with noise; one unit may be silent. The first status that is not 0."""
+    noise = np.random.default_rng(1)
+    for now_ms in range(from_ms + 1, to_ms + 1):
+        for unit, imu in enumerate(copter.sensors["imu"]):
+            if unit != silent:
+                imu["accelerometer"] = (0.0, 0.0, -9.81) + 0.1 * noise.standard_normal(3)
+                imu["gyroscope"] = 0.01 * noise.standard_normal(3)
+                imu["count"] += 1
+        if now_ms % 10 == 0:
+            field = copter.sensors["magnetometer"]
+            field["field"] = (20.0, 1.0, 43.0) + noise.standard_normal(3)
+            field["count"] += 1
+            air = copter.sensors["barometer"]
+            air["pressure"], air["temperature"] = 95_000.0 + 2.0 * noise.standard_normal(), 1520
+            air["count"] += 1
+        if status := int(copter.run_until(1000 * now_ms)):
+            return status
+    return 0
+
+
+def counts(copter: BoardCopter) -> dict[str, int]:
+    """The last line of the console that tells how it goes."""
+    line = [it for it in copter.text().splitlines() if it.startswith("t ") and " kept " in it][-1]
+    words = line.replace(" s ", " ").split()
+    return {name: int(value) for name, value in zip(words[::2], words[1::2], strict=True)}
+
+
+def test_the_board_says_what_is_there_and_measures_what_the_plant_tells(flown: BoardCopter) -> None:
+    flown.start(100, False)
+    assert rest(flown, 0, 3600) == 0
+    said = flown.text().splitlines()
+    assert said[:3] == ["Keel on fmuv5: copter", "imu 1 status 0", "imu 2 status 0"]
+    found = counts(flown)
+    assert found["imu1"] >= 2900 and found["imu2"] >= 2900
+    assert (found["failed1"], found["failed2"], found["skipped"], found["overruns"]) == (0, 0, 0, 0)
+    assert abs(found["pa"] - 95_000) <= 10  # Below 20 degrees, with the second order.
+    assert found["fields"] > 100
+    flown.look()
+    down = flown.view["vote"][2]
+    assert abs(down + 9.81) < 0.3
+
+
+def test_a_unit_whose_count_stands_is_silent_and_the_other_goes_on(flown: BoardCopter) -> None:
+    flown.start(100, False)
+    assert rest(flown, 0, 2000) == 0
+    assert rest(flown, 2000, 3600, silent=1) == 0
+    found = counts(flown)
+    assert found["failed1"] == 0 and found["failed2"] > 900
+
+
+def test_what_the_code_must_not_do_ends_the_flight(made: Path, tmp_path: Path) -> None:
+    vectors = b"".join(word.to_bytes(4, "little") for word in (0x2000_4800, 0x0800_8009))
+    for code, reason in (
+        (bytes.fromhex("00de"), "the processor stopped at 0x08008008"),
+        (bytes.fromhex("4ff080400160"), "0x40000000 is no register"),
+        (bytes.fromhex("4ff0c0400168"), "reads the page at 0x60000000"),
+    ):
+        copter = copter_of(made, tmp_path, vectors + code + bytes.fromhex("fee7"))
+        copter.start(100, False)
+        assert copter.run_until(1000) == 1
+        assert reason in copter.why(1)
+
+
+def copter_of(made: Path, folder: Path, image: bytes) -> BoardCopter:
+    """The library with other bytes of an image."""
+    if not (folder / board.LIBRARY).exists():  # It is in use from the first time on.
+        shutil.copy(made, folder / board.LIBRARY)
+    told = json.loads((made.parent / board.IMAGE).read_text())
+    (folder / "other.bin").write_bytes(image)
+    told["binary"] = str(folder / "other.bin")
+    (folder / board.IMAGE).write_text(json.dumps(told))
+    return BoardCopter(folder / board.LIBRARY)
+
+
+def test_what_the_image_does_not_have_is_refused(flown: BoardCopter) -> None:
+    with pytest.raises(ToolError, match="the time that they take"):
+        flown.start(50, False)
+    with pytest.raises(ToolError, match="neither a plain mean"):
+        flown.start(100, True)
+    with pytest.raises(ToolError, match="one link"):
+        flown.start(100, False, [Link(), Link()])
+
+
+def test_a_parameter_is_in_force_behind_the_next_start(
+    made: Path, flown: BoardCopter, tmp_path: Path
+) -> None:
+    flown.start(100, False, memory=tmp_path / "memory")
+    with pytest.raises(ToolError, match="no such parameter"):
+        flown.set("NO_SUCH", 1.0)
+    flown.set("MAG_CUR_X", 0.25)
+    flown.start(100, False, memory=tmp_path / "memory")
+    assert rest(flown, 0, 700) == 0
+    image = json.loads((made.parent / board.IMAGE).read_text())
+    variables = Variables(Toolchain(), Path(image["elf"]))
+    taken = variables.find(board.MAIN, "copter").part("parameters.loaded.taken")
+    variables.close()
+    assert flown.number_at(taken) == 1
+
+
+def of_two_units(name: str) -> scenario.Scenario:
+    """A scenario with as many units as the board has."""
+    found = scenario.read(name)
+    return found.model_copy(update={"options": found.options.model_copy(update={"imus": 2})})
+
+
+class LatePilot(Pilot):
+    """He switches on at a time at which either copter is ready: so both meet the same noise."""
+
+    waited_s = 0.0
+
+    def _wait(self, sight: Sight) -> None:
+        self.waited_s += self.frame_s
+        super()._wait(sight)
+        self.armed = self.armed and self.waited_s >= ARMS_S
+
+
+def flight(copter: Copter, flown: scenario.Scenario) -> Trace:
+    trace = Flight(copter, Order(flown, "jsbsim", flown.seed), LatePilot).fly()
+    assert not trace.problem and not trace.crash
+    return trace
+
+
+def largest(trace: Trace, other: Trace, names: tuple[str, ...]) -> float:
+    """By how much columns differ at most."""
+    return max(float(np.abs(trace.column(it) - other.column(it)).max()) for it in names)
+
+
+def since_begun(trace: Trace, kind: str) -> Any:
+    """Counts of tasks since the motors started."""
+    before, after = trace.done
+    return after[kind] - before[kind]
+
+
+def test_the_image_hovers_as_the_hosts_copter_does(copter: Copter, flown: BoardCopter) -> None:
+    hover = of_two_units("hover")
+    host, own = flight(copter, hover), flight(flown, hover)
+    assert judge.is_good(hover, own, judge.judged(hover, own, None))
+    assert own.column("up").max() > 2.5
+    assert loop.state_names(own) == loop.state_names(host)
+    assert math.degrees(largest(own, host, ("roll", "pitch"))) <= ROLL_PITCH_DEG
+    assert largest(own, host, ("north", "east", "up")) <= PLACE_M
+    assert not since_begun(own, "skipped").any() and not since_begun(own, "overruns").any()
+    assert since_begun(own, "runs").all()
+
+
+def test_equal_flights_are_equal(flown: BoardCopter) -> None:
+    short = of_two_units("hover").model_copy(update={"duration_s": 4.0})
+    first, again = flight(flown, short), flight(flown, short)
+    assert first.digest == again.digest
+    assert first.column("up").max() > 1.0
+
+
+def test_a_task_that_takes_longer_is_an_overrun(flown: BoardCopter) -> None:
+    flown.start(100, False)
+    assert rest(flown, 0, 1000) == 0
+    before = flown.done()
+    task = flown.tasks.index("Foreground radio")
+    flown.overrun(task, 3, 500)
+    assert rest(flown, 1000, 1200) == 0
+    assert (flown.done()["overruns"] - before["overruns"]).tolist() == [
+        3 * (number == task) for number in range(len(flown.tasks))
+    ]
