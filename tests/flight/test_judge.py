@@ -137,6 +137,14 @@ def test_the_end() -> None:
     assert bad == ["ends with", "ends at home"]
 
 
+def test_a_flight_that_stays_on_the_ground_is_no_hover() -> None:
+    limits = {"rises_m": 2.5, "attitude_max_deg": 1.0, "hold_max_m": 0.5}
+    bad = [finding.name for finding in told(limits, flight()) if not finding.good]
+    assert bad == ["rises_m"]
+    risen = np.minimum(np.arange(ROWS), np.arange(ROWS)[::-1]) / 19.0  # 2.58 m in the middle.
+    assert all(finding.good for finding in told(limits, flight(up=risen)))
+
+
 def test_what_is_good() -> None:
     usual = Scenario(description="x", duration_s=10.0)
     fails = usual.model_copy(update={"expects_failure": True})

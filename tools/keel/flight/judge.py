@@ -208,6 +208,7 @@ def judged(scenario: Scenario, trace: Trace, unbroken: Trace | None) -> list[Fin
     if trace.crash:
         return [Finding("flown", trace.crash, "without a crash", False)]
     return [
+        *risen(scenario.limits, trace),
         *numbers(scenario.limits, Judge(scenario, trace, unbroken)),
         *stayed(scenario.limits, trace),
         *reached(scenario.limits.reach, trace),
@@ -222,6 +223,14 @@ def numbers(limits: Limits, judge: Judge) -> Iterator[Finding]:
         if limit is not None:
             value = float(getattr(judge, name)())
             yield Finding(name, f"{value:.3f}", f"{limit:g}", value <= limit, value)
+
+
+def risen(limits: Limits, trace: Trace) -> Iterator[Finding]:
+    """Whether it flew at all: upper limits hold on the ground, too."""
+    if limits.rises_m is not None:
+        up = float(trace.column("up").max())
+        limit = f"at least {limits.rises_m:g} m"
+        yield Finding("rises_m", f"{up:.2f} m", limit, up >= limits.rises_m, up)
 
 
 def stayed(limits: Limits, trace: Trace) -> Iterator[Finding]:

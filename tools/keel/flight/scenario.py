@@ -244,7 +244,8 @@ class End(Table):
 
 
 class Limits(Table):
-    """What must hold, between two times where not said otherwise. Each is an upper limit."""
+    """What must hold, between two times where not said otherwise. Each is an upper limit, but for
+    rises_m."""
 
     from_s: Seconds = 0.0
     to_s: Seconds = 600.0
@@ -263,6 +264,7 @@ class Limits(Table):
     sink_max: Positive | None = None  # When it touches the ground, in m/s.
     skipped_max: Annotated[int, Field(ge=0)] | None = None  # Runs of real-time tasks left out.
     without_fault_deg: Positive | None = None  # Of roll and pitch: from the same flight unbroken.
+    rises_m: Positive | None = None  # So high it is at some time, at least.
     stays: list[State] = []  # In one of these, if any are named.
     reach: list[Reach] = []
     end: End = End()
