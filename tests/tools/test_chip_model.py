@@ -60,9 +60,11 @@ class ImageTest(unittest.TestCase):
         board: str = "nucleo_f767zi",
         broken: str = "",
         step_us: int = 4,
+        first_us: int = 160_000,
     ) -> Chip:
-        """Run an image; keys come a millisecond apart from 0.16 s on."""
-        pressed = [(160_000 + 1000 * i, key) for i, key in enumerate(keys)]
+        """Run an image; keys come a millisecond apart from a time on, when a board with one inertial
+        unit has started."""
+        pressed = [(first_us + 1000 * i, key) for i, key in enumerate(keys)]
         return chip_model.simulate(self.tools, self.root, board, seconds, pressed, broken, step_us)
 
     def safe(self, board: Chip, *parts: str) -> None:
@@ -151,7 +153,7 @@ class ImageTest(unittest.TestCase):
         """Over a fault by the code, and over one that the watchdog finds."""
         for name in WIRINGS:
             for key in "uh":
-                board = self.run_image(0.45, keys=f"pppp{key}", board=name)  # A millisecond each.
+                board = self.run_image(0.6, keys=f"pppp{key}", board=name, first_us=250_000)
                 self.assertEqual(board.resets, 1 if key == "u" else 2)
                 for log in board.outputs.log:
                     self.check_log(log, key == "h")

@@ -129,7 +129,13 @@ class Converter:
 class Chip:
     """The chip around the processor."""
 
-    def __init__(self, wiring: Wiring, broken: str = "", outputs: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        wiring: Wiring,
+        broken: str = "",
+        outputs: Sequence[str] = (),
+        fram: Fram | None = None,
+    ) -> None:
         self.console = wiring.console
         self.broken = broken
         identity = OTHER if broken == "other-sensor" else IDENTITY
@@ -148,7 +154,7 @@ class Chip:
         self.counts = dict(COUNTS)
         self.converted: list[int] = []  # Channels of the converter, in their order.
         self.exception = 0
-        self.fram = Fram(there=broken != "memory")
+        self.fram = fram or Fram(there=broken != "memory")
         self.barometer = Ms5611(there=broken != "barometer")
         devices: dict[str, Device] = {
             "ICM-20689": self.sensor,

@@ -59,13 +59,11 @@ def simulate(
         raise ToolError(unknown("model", name, WIRINGS))
     image = read_built(root, name)
     # The sockets' order is told by others than the board's table, and does not come with its image.
-    chip = Chip(WIRINGS[name], broken, read_sockets(ROOT)[name].outputs)
+    chip = Chip(WIRINGS[name], broken, read_sockets(ROOT)[name].outputs, fram)
     chip.keys = sorted(keys)
     chip.step_us = step_us
     chip.options = options
     chip.card = card
-    if fram:
-        chip.fram = fram
     Processor(tools, image.binary.read_bytes(), image.address, chip).run(int(seconds * 1e6))
     return chip
 
