@@ -78,9 +78,10 @@ def log_of(pyfatfs: tuple[Any, Any], card: SdCard) -> tuple[ULog, Any]:
 
 
 def samples_are_right(data: Any) -> None:
-    """The model's sensor: 1 g, a steady rate, and a number that counts, of seven bits; a sample
-    every millisecond, in its order, none twice."""
-    assert set(data["acceleration[2]"]) == {2048}
+    """The model's sensor: 1 g and in every second sample a step more, a steady rate, and a number
+    that counts, of seven bits; a sample every millisecond, in its order, none twice."""
+    assert set(data["acceleration[2]"]) == {2048, 2064}
+    assert set(np.abs(np.diff(data["acceleration[2]"]))) == {16}
     assert set(data["acceleration[0]"]) == set(data["acceleration[1]"]) == {0}
     assert set(data["rate[1]"]) == {0}
     assert set(data["rate[2]"]) == {1}
