@@ -62,8 +62,8 @@ class ImageTest(unittest.TestCase):
         step_us: int = 4,
         first_us: int = 160_000,
     ) -> Chip:
-        """Run an image; keys come a millisecond apart from a time on, when a board with one inertial
-        unit has started."""
+        """Run an image; keys come a millisecond apart from a time on, by which a board with one
+        inertial unit has started."""
         pressed = [(first_us + 1000 * i, key) for i, key in enumerate(keys)]
         return chip_model.simulate(self.tools, self.root, board, seconds, pressed, broken, step_us)
 
