@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "common/progress.h"
 
-static uint32_t add_to_end(uint32_t a, uint32_t b)
+uint32_t keel_progress_sum(uint32_t a, uint32_t b)
 {
     return (a <= (UINT32_MAX - b)) ? (a + b) : UINT32_MAX;
 }
@@ -15,8 +15,8 @@ keel_progress_t keel_progress_none(void)
 
 void keel_progress_pass(keel_progress_t *progress, uint32_t elapsed_us)
 {
-    progress->passed_us = add_to_end(progress->passed_us, elapsed_us);
-    progress->age_us = add_to_end(progress->age_us, elapsed_us);
+    progress->passed_us = keel_progress_sum(progress->passed_us, elapsed_us);
+    progress->age_us = keel_progress_sum(progress->age_us, elapsed_us);
 }
 
 void keel_progress_begin(keel_progress_t *progress)
@@ -45,5 +45,5 @@ bool keel_progress_fail(keel_progress_t *progress, uint32_t limit)
 
 uint32_t keel_progress_next(uint32_t count)
 {
-    return add_to_end(count, 1u);
+    return keel_progress_sum(count, 1u);
 }

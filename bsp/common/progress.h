@@ -40,6 +40,9 @@ void keel_progress_sample(keel_progress_t *progress);
  */
 bool keel_progress_fail(keel_progress_t *progress, uint32_t limit);
 
+/** The sum of two counts or times, or UINT32_MAX. */
+uint32_t keel_progress_sum(uint32_t a, uint32_t b);
+
 /** One more, or UINT32_MAX. */
 uint32_t keel_progress_next(uint32_t count);
 

@@ -4,6 +4,7 @@
 #include "file_medium.h"
 #include "model.h"
 #include "parameter_store.h"
+#include "parameter_value.h"
 #include "urpilot_tasks.h"
 
 #include <math.h>
@@ -126,21 +127,6 @@ int sim_start(const sim_options_t *options)
     return (model_processor_start(path, image.address) && !model_clock.failed) ? 0 : 1;
 }
 
-/* A number as a parameter of this type has it. */
-static bool value_of(keel_parameter_type_t type, double number, keel_parameter_value_t *value)
-{
-    *value = (keel_parameter_value_t){.type = type};
-    if (type == KEEL_PARAMETER_FLOAT) {
-        value->real = (float)number;
-        return true;
-    }
-    if (!((double)INT32_MIN <= number) || !(number <= (double)INT32_MAX)) {
-        return false;
-    }
-    value->whole = (int32_t)number;
-    return (double)value->whole == number;
-}
-
 static int save(copter_parameter_store_t *store)
 {
     if (!has_file || (copter_parameter_store_save(store) != KEEL_OK)) {
@@ -168,7 +154,7 @@ int sim_set(const char *name, double value)
     if (index >= keel_parameters_count(&store.table)) {
         return 1;
     }
-    if (value_of(keel_parameters_get(&store.table, index).type, value, &wanted)) {
+    if (sim_parameter_value(keel_parameters_get(&store.table, index).type, value, &wanted)) {
         status = keel_parameters_set(&store.table, index, wanted);
     }
     if (status != KEEL_OK) {

@@ -35,11 +35,6 @@ static uint32_t flags_of(const keel_receiver_config_t *config, uint32_t flags)
     return flags << flag_places[config->stream % STREAMS_A_WORD];
 }
 
-static uint32_t saturated_sum(uint32_t a, uint32_t b)
-{
-    return (a > (UINT32_MAX - b)) ? UINT32_MAX : (a + b);
-}
-
 /* The time of so many bytes, to the nearest microsecond. */
 static uint32_t bytes_time_of(const keel_line_t *line, uint32_t bytes)
 {
@@ -147,20 +142,20 @@ static void take_bytes(keel_receiver_t *receiver, uint32_t came, uint32_t passed
         const uint32_t at_us = (earlier_us < passed_us) ? (passed_us - earlier_us) : 0u;
 
         receiver->elapsed_us[receiver->head % KEEL_RECEIVER_CAPACITY] =
-            saturated_sum(receiver->quiet_us, at_us - before_us);
+            keel_progress_sum(receiver->quiet_us, at_us - before_us);
         receiver->head++;
         receiver->quiet_us = 0u;
         before_us = at_us;
     }
-    receiver->quiet_us = saturated_sum(receiver->quiet_us, passed_us - before_us);
+    receiver->quiet_us = keel_progress_sum(receiver->quiet_us, passed_us - before_us);
 }
 
 /* What is unread is forgotten, but for its time: the next byte tells it, as it tells of a gap. */
 static void forget_bytes(keel_receiver_t *receiver, uint32_t came, uint32_t passed_us)
 {
-    receiver->quiet_us = saturated_sum(receiver->quiet_us, passed_us);
+    receiver->quiet_us = keel_progress_sum(receiver->quiet_us, passed_us);
     while (receiver->tail != receiver->head) {
-        receiver->quiet_us = saturated_sum(
+        receiver->quiet_us = keel_progress_sum(
             receiver->quiet_us, receiver->elapsed_us[receiver->tail % KEEL_RECEIVER_CAPACITY]);
         receiver->tail++;
     }
@@ -176,7 +171,7 @@ static void look_at_ring(keel_receiver_t *receiver, uint32_t passed_us)
     const uint32_t came = (place - receiver->head) % KEEL_RECEIVER_CAPACITY;
     const uint32_t unread = (receiver->head - receiver->tail) + came;
 
-    receiver->count.bytes = saturated_sum(receiver->count.bytes, came);
+    receiver->count.bytes = keel_progress_sum(receiver->count.bytes, came);
     if ((passed_us > receiver->trusted_us) || (unread > KEEL_RECEIVER_TRUSTED)) {
         receiver->count.laps = keel_progress_next(receiver->count.laps);
         forget_bytes(receiver, came, passed_us);

@@ -5,6 +5,7 @@
 #include "copter.h"
 #include "file_medium.h"
 #include "host/host_board.h"
+#include "parameter_value.h"
 #include "telemetry.h"
 
 #include <stddef.h>
@@ -332,21 +333,6 @@ int sim_start(const sim_options_t *chosen)
     return (int)start_copter();
 }
 
-/* A number as a parameter of this type has it. */
-static bool value_of(keel_parameter_type_t type, double number, keel_parameter_value_t *value)
-{
-    *value = (keel_parameter_value_t){.type = type};
-    if (type == KEEL_PARAMETER_FLOAT) {
-        value->real = (float)number;
-        return true;
-    }
-    if (!((double)INT32_MIN <= number) || !(number <= (double)INT32_MAX)) {
-        return false;
-    }
-    value->whole = (int32_t)number;
-    return (double)value->whole == number;
-}
-
 int sim_set(const char *name, double value)
 {
     copter_parameter_store_t *const store = &copter.parameters;
@@ -357,7 +343,7 @@ int sim_set(const char *name, double value)
     if (index >= keel_parameters_count(&store->table)) {
         return 1;
     }
-    if (value_of(keel_parameters_get(&store->table, index).type, value, &wanted)) {
+    if (sim_parameter_value(keel_parameters_get(&store->table, index).type, value, &wanted)) {
         status = keel_parameters_set(&store->table, index, wanted);
     }
     if (status != KEEL_OK) {

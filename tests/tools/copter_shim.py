@@ -13,7 +13,7 @@ from keel.base.run import output_of
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMON = ("slots", "task_table", "trace", "trace_log")
-# What a port needs at least: a clock that stands, and receivers that hear nothing.
+# The least that a port needs: a clock that stands, and receivers that hear nothing.
 SILENT = """\
 #include "copter.h"
 static uint32_t read_clock(void *context)

@@ -228,7 +228,7 @@ typedef struct keel_board_line {
 } keel_board_line_t;
 
 /**
- * What a line's UART and stream are. Which line it is, `make check NAME=registers` holds against
+ * The UART and the stream of a line. `make check NAME=registers` holds which line it is against
  * specs/outputs.toml; the chip's model refuses a stream that does not hear the UART.
  */
 #define KEEL_UART(uart_name, bus, dma_name, stream_number, channel_number)                         \

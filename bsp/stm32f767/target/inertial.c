@@ -18,9 +18,6 @@
 #define FORCE_UNIT  (9.80665f / 2048.0f)   /* In m/s^2. */
 #define RATE_UNIT   (0.017453293f / 16.4f) /* In rad/s. */
 
-/* A rate that all kinds take: 108 MHz / 16 = 6.75 MHz. The ICM-20689 is the slowest. */
-#define BUS_LIMIT_HZ 8000000u
-
 /* A unit with the driver of its kind; those of the other kinds are not used. */
 typedef struct inertial_unit {
     keel_spi_device_t device;        /* Of the BMI055, the gyroscope. */
@@ -49,7 +46,8 @@ void keel_chip_inertial_begin(void)
     }
     keel_chip_give_spi(PINS->sck, PINS->miso, PINS->mosi);
     keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI1EN);
-    keel_chip_require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, BUS_LIMIT_HZ));
+    /* All kinds take the rate of the slowest: 108 MHz / 16 = 6.75 MHz. */
+    keel_chip_require(keel_spi_start(SPI1, KEEL_APB2_LIMIT_HZ, keel_icm20689.bus_limit_hz));
     (void)keel_chip_delay(NULL, POWER_ON_US);
 }
 
