@@ -169,12 +169,12 @@ class Executing(ExecutionCase):
         self.assertIsNone(self.kill("*box = 4;", made))
         self.assertIn("reaches its end", made.failing["keel_box_put_harness"])
 
-    def stand_in(self, called_from: str) -> None:
-        """A harness with a stand-in for a function that is called from a file."""
+    def stand_in(self, called_from: str, linkage: str = "") -> None:
+        """A harness with a stand-in for a function of a linkage that is called from a file."""
         models = self.root / "specs" / "model"
         models.mkdir(parents=True, exist_ok=True)
-        twice = "int twice(int a)\n{\n    return a + a;\n}\n"
-        other = "int twice(int a);\n\nint same(int a)\n{\n    return twice(a) - a;\n}\n"
+        twice = f"{linkage}int twice(int a)\n{{\n    return a + a;\n}}\n"
+        other = f"{linkage}int twice(int a);\n\nint same(int a)\n{{\n    return twice(a) - a;\n}}\n"
         (models / "twice.c").write_text(twice, encoding="utf-8")
         (models / called_from).open("a", encoding="utf-8").write(other)
         source = self.unit.source.relative_to(self.root)
@@ -202,8 +202,15 @@ void keel_box_put_harness"""
         self.assertEqual(made.failing, {})
         self.assertIsNone(self.kill("*box = value + 0;"))
 
-    def test_but_not_where_its_own_file_calls_it(self) -> None:
+    def test_also_where_its_own_file_calls_it(self) -> None:
         self.stand_in("twice.c")
+        made = self.executions()
+        self.assertIsNotNone(self.kill("*box = 4;", made))
+        self.assertEqual(made.failing, {})
+        self.assertIsNone(self.kill("*box = value + 0;"))
+
+    def test_but_not_a_static_one_of_its_own_file(self) -> None:
+        self.stand_in("twice.c", "static ")
         made = self.executions()
         self.assertIsNone(self.kill("*box = 4;", made))
         self.assertEqual(made.failing, {})

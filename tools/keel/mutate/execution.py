@@ -19,9 +19,10 @@ What could make it wrong, and what is done about it:
 - All the same, CBMC is asked about some of the executions (`replayed`): with the very values that
   were drawn, the same assertion must fail for it. If not, the run fails.
 
-Where a harness replaces a function, the linker puts its stand-in there, which it can do between
-files alone; other such harnesses are left to CBMC. Inputs that no search would find come from CBMC
-(tools/keel/mutate/seeds.py).
+Where a harness replaces a function of another file, the linker puts its stand-in there. Where the
+function is called in the file that defines it, that definition is made weak, and the stand-in bears
+its name. A static one is seen by no linker: such a harness is left to CBMC. Inputs that no search
+would find come from CBMC (tools/keel/mutate/seeds.py).
 """
 
 from __future__ import annotations
@@ -173,9 +174,21 @@ def drawn(texts: Sequence[str]) -> dict[str, str]:
 
 
 def _calls(name: str, text: str) -> bool:
-    """Whether a file that defines a function calls it, too, which no linker sees."""
+    """Whether a file that defines a function calls it, too."""
     found = len(re.findall(rf"\b{name}\s*\(", csource.code_only(text)))
     return found > 1 and any(one.name == name for one in csource.defined(text))
+
+
+def _is_hidden(name: str, path: Path) -> bool:
+    """Whether no linker can replace a function that a file defines: it is static, or inline."""
+    return path.suffix == ".h" or any(
+        one.static for one in csource.defined(csource.read(path)) if one.name == name
+    )
+
+
+def weakened(names: Iterable[str]) -> str:
+    """What makes definitions weak in a file that it stands before."""
+    return "".join(f"#pragma weak {name}\n" for name in names)
 
 
 class Wrapping:
@@ -183,8 +196,15 @@ class Wrapping:
 
     def __init__(self, harness: Harness, files: Sequence[Path]) -> None:
         texts = [csource.read(path) for path in files]
-        if inside := [name for name in harness.replaces if any(_calls(name, x) for x in texts)]:
-            raise ProjectError(f"{harness.name}: {inside[0]} is called where it is defined")
+        # The replaced functions that a file calls which defines them.
+        self.weak = {
+            path: inside
+            for path, text in zip(files, texts, strict=True)
+            if (inside := [name for name in harness.replaces if _calls(name, text)])
+        }
+        self._inside = {name for inside in self.weak.values() for name in inside}
+        if hidden := [name for path in self.weak for name in self._inside if _is_hidden(name, path)]:
+            raise ProjectError(f"{harness.name}: no linker can replace {hidden[0]}")
         self._harness = harness
         self._types = drawn(texts)
         self._known = declarations.structures(texts)
@@ -232,6 +252,15 @@ class Wrapping:
             ]
         return lines
 
+    @property
+    def wrapped(self) -> list[str]:
+        """The replaced functions that other files than their own call."""
+        return [name for name in self._harness.replaces if name not in self._inside]
+
+    def _stand_in(self, name: str) -> str:
+        """How the stand-in of a function is called for the linker."""
+        return name if name in self._inside else f"__wrap_{name}"
+
     def text(self, path: Path) -> str:
         """For this machine; the names are such that several harnesses make one program."""
         name = self._harness.name
@@ -239,7 +268,7 @@ class Wrapping:
         return "\n".join(
             [
                 *(f"#define {one} {name}_{one}" for one in sorted(self._types)),
-                *(f"#define {one}_stand_in __wrap_{one}" for one in self._harness.replaces),
+                *(f"#define {one}_stand_in {self._stand_in(one)}" for one in self._harness.replaces),
                 f'#include "{path}"',
                 *self._functions(),
                 f"static const double keel_run_numbers[] = {{{numbers}}};",
@@ -480,19 +509,21 @@ class Executions:
         defines = harnesses[0].defines
         sources = {path for one in harnesses for path in one.sources}
         wrapped = {one.path: one for one in harnesses}
+        wrappings = [found for one in harnesses if (found := self.wrapping(one.name))]
         objects: list[Path] = []
         for path in sorted({*sources, *wrapped}):
             touched = changed is not None and self._root / changed in self._closure(path)
             where = tree if touched else self._root
             folder = place if touched else common
             source = self._wrapped(wrapped[path], where, folder) if path in wrapped else path
+            weak = self._weak(path, wrappings, common)
             if not touched:
-                objects.append(self._object(source, defines, extra))
+                objects.append(self._object(source, defines, [*extra, *weak]))
                 continue
             if path not in wrapped:
                 source = tree / path.relative_to(self._root)
             target = place / f"{len(objects)}.o"
-            if not self._compile(source, target, tree, runner, [*defines, *extra]):
+            if not self._compile(source, target, tree, runner, [*defines, *extra, *weak]):
                 raise ProjectError(f"{source}: does not compile for this machine")
             objects.append(target)
         objects.append(self._object(self._table(harnesses, common), (), extra))
@@ -501,11 +532,21 @@ class Executions:
         program = place / "program"
         linker = ["-fuse-ld=gold"] if shutil.which("ld.gold") else []  # which is faster
         linker += ["-Wl,--gc-sections"]  # as for CBMC, what nobody calls need not be whole
-        linker += [f"-Wl,--wrap={name}" for one in harnesses for name in one.replaces]
+        linker += [f"-Wl,--wrap={name}" for one in wrappings for name in one.wrapped]
         done = runner.run(
             [*self._clang, *CHECKED, *linker, *more, *map(str, objects), "-o", str(program)]
         )
         return program if done.status == 0 else None
+
+    def _weak(self, source: Path, wrappings: Iterable[Wrapping], folder: Path) -> list[str]:
+        """Options that let the harnesses' stand-ins take the place of functions of a source."""
+        names = sorted({name for one in wrappings for name in one.weak.get(source, [])})
+        if not names:
+            return []
+        header = folder / f"{digest(names)[:16]}.weak.h"
+        header.parent.mkdir(parents=True, exist_ok=True)
+        header.write_text(weakened(names), encoding="utf-8")
+        return ["-include", str(header)]
 
     def _closure(self, path: Path) -> frozenset[Path]:
         with self._lock:
