@@ -98,6 +98,8 @@ NUMBER = re.compile(
 # A harness, and how many executions did not end or did what C leaves undefined.
 PASSED = re.compile(r"^PASSED (\w+) \d+ (\d+) (\d+) \d+$", re.M)
 NONDET = re.compile(r"nondet_\w+$")
+# Above the size of every array that is drawn: a harness's own bound is that of its own loops.
+FILLED = 1 << 16
 
 
 @dataclass(frozen=True)
@@ -253,6 +255,16 @@ class Wrapping:
         return lines
 
     @property
+    def unwound(self) -> tuple[str, ...]:
+        """Options by which CBMC comes to the end of the loops that fill what is drawn."""
+        loops = [
+            f"{name}.{number}:{FILLED}"
+            for name, type_ in sorted(self._types.items())
+            for number in range("".join(self._filled("value", type_, 0)).count("for ("))
+        ]
+        return ("--unwindset", ",".join(loops)) if loops else ()
+
+    @property
     def wrapped(self) -> list[str]:
         """The replaced functions that other files than their own call."""
         return [name for name in self._harness.replaces if name not in self._inside]
@@ -305,7 +317,7 @@ def replayed(kill: Kill, wrapping: Wrapping, checker: Cbmc, root: Path) -> bool 
     place.parent.mkdir(parents=True, exist_ok=True)
     place.write_text(wrapping.replay(harness.path, kill.values), encoding="utf-8")
     # No solver is needed, but the bound of a loop whose end is not seen to be constant is.
-    options = tuple(without_solver(list(harness.options)))
+    options = (*without_solver(list(harness.options)), *wrapping.unwound)
     alone = replace(harness, path=place, options=options, assertions_only=True, timeout=CONFIRMING)
     binary, complaint = checker.build(alone, f"{harness.name}-replay")
     if complaint:
@@ -609,9 +621,9 @@ class Executions:
         for number, seed in enumerate(self._seeded(harness)):
             (corpus / f"seed{number}").write_bytes(seed)
         extra = ["-fsanitize=fuzzer-no-link", "-DKEEL_RUN_SEARCH"]
-        search = self._program(
-            [harness], None, self._root, folder, runner, extra, ["-fsanitize=fuzzer"]
-        )
+        # With what the search counts, no function is left out, not even one that nobody calls.
+        more = ["-fsanitize=fuzzer", "-Wl,--unresolved-symbols=ignore-all"]
+        search = self._program([harness], None, self._root, folder, runner, extra, more)
         if not search:
             return {"why": NOT_HERE}
         command = [str(search), *SEARCH, f"-artifact_prefix={folder}/", str(corpus)]
@@ -630,7 +642,8 @@ class Executions:
         wrapping = self.wrapping(harness.name)
         if not self._seeds or not wrapping or "--z3" in harness.options:
             return []
-        return self._seeds().of(harness, wrapping.seeding(harness.path))
+        text = wrapping.seeding(harness.path)
+        return self._seeds().of(replace(harness, options=harness.options + wrapping.unwound), text)
 
     def _passing(
         self, harness: Harness, program: Path, place: Path, inputs: bytes, runner: Runner
