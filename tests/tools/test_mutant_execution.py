@@ -60,6 +60,14 @@ void keel_box_put_harness(void)
 }
 """
 
+BOXES = """\
+typedef struct {
+    int value[10];
+} boxes_t;
+
+boxes_t nondet_boxes(void);
+"""
+
 
 @unittest.skipUnless(shutil.which("clang-19"), "needs clang 19")
 class ExecutionCase(TreeTest):
@@ -213,6 +221,14 @@ void keel_box_put_harness"""
         self.stand_in("twice.c", "static ")
         made = self.executions()
         self.assertIsNone(self.kill("*box = 4;", made))
+        self.assertEqual(made.failing, {})
+
+    def test_what_nobody_calls_may_call_what_is_not_there(self) -> None:
+        source = SOURCE + "\nint absent(int a);\nint idle(int a);\n"
+        source += "int idle(int a)\n{\n    return absent(a);\n}\n"
+        self.unit.source.write_text(source, encoding="utf-8")
+        made = self.executions()
+        self.assertIsNotNone(self.kill("*box = 4;", made))
         self.assertEqual(made.failing, {})
 
     def test_what_no_search_finds_is_executed_when_it_is_said(self) -> None:
@@ -376,6 +392,15 @@ class Confirming(ExecutionCase):
         self.write("// cbmc: --unwind 7 --external-sat-solver cadical\n" + HARNESS)
         _, checker = self.tried(self.trial(), "*box = 1001;", answer("FAILURE"))
         self.assertEqual(checker.options, ("--unwind", "7"))
+
+    def test_the_bound_of_the_harness_is_not_that_of_loops_that_draw(self) -> None:
+        drawn = HARNESS.replace("int nondet_int(void);", BOXES).replace(
+            "const int value = nondet_int();", "const int value = nondet_boxes().value[9];"
+        )
+        self.write("// cbmc: --unwind 7\n" + drawn)
+        _, checker = self.tried(self.trial(), "*box = 1001;", answer("FAILURE"))
+        loops = f"nondet_boxes.0:{mutant_execution.FILLED}"
+        self.assertEqual(checker.options, ("--unwind", "7", "--unwindset", loops))
 
     def test_a_kill_is_kept_under_its_harness(self) -> None:
         trial = self.trial()
