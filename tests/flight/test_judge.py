@@ -13,7 +13,7 @@ from keel.flight import judge
 from keel.flight.library import modes, states
 from keel.flight.loop import TRUTH, Trace
 from keel.flight.montecarlo import by_fault, ranks
-from keel.flight.scenario import Limits, Scenario
+from keel.flight.scenario import Hand, Limits, Scenario
 
 VIEW = [
     ("quaternion", "<f4", (4,)),
@@ -143,6 +143,18 @@ def test_a_flight_that_stays_on_the_ground_is_no_hover() -> None:
     assert bad == ["rises_m"]
     risen = np.minimum(np.arange(ROWS), np.arange(ROWS)[::-1]) / 19.0  # 2.58 m in the middle.
     assert all(finding.good for finding in told(limits, flight(up=risen)))
+
+
+def test_a_pilot_who_asks_for_a_height_must_get_near_it() -> None:
+    asked = [Hand(at_s=1.0, height_m=4.0), Hand(at_s=2.0, height_m=2.0), Hand(at_s=3.0, lands=True)]
+    usual = Scenario(description="x", duration_s=10.0, pilot=asked)
+    assert usual.rises_m == 3.0
+    for up, bad in ((2.9, ["rises_m"]), (3.1, [])):
+        trace = flight(up=np.where(np.arange(ROWS) == 20, up, 0.0))
+        assert [one.name for one in judge.judged(usual, trace, None) if not one.good] == bad
+    assert Scenario(description="x", duration_s=10.0).rises_m == 0.0
+    grounded = usual.model_copy(update={"limits": Limits(rises_m=0.0)})
+    assert all(one.good for one in judge.judged(grounded, flight(), None))
 
 
 def test_what_is_good() -> None:

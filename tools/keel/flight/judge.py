@@ -208,7 +208,7 @@ def judged(scenario: Scenario, trace: Trace, unbroken: Trace | None) -> list[Fin
     if trace.crash:
         return [Finding("flown", trace.crash, "without a crash", False)]
     return [
-        *risen(scenario.limits, trace),
+        *risen(scenario.rises_m, trace),
         *numbers(scenario.limits, Judge(scenario, trace, unbroken)),
         *stayed(scenario.limits, trace),
         *reached(scenario.limits.reach, trace),
@@ -225,12 +225,11 @@ def numbers(limits: Limits, judge: Judge) -> Iterator[Finding]:
             yield Finding(name, f"{value:.3f}", f"{limit:g}", value <= limit, value)
 
 
-def risen(limits: Limits, trace: Trace) -> Iterator[Finding]:
-    """Whether it flew at all: upper limits hold on the ground, too."""
-    if limits.rises_m is not None:
+def risen(height_m: float, trace: Trace) -> Iterator[Finding]:
+    """Whether it flew at all, if it is to."""
+    if height_m > 0.0:
         up = float(trace.column("up").max())
-        limit = f"at least {limits.rises_m:g} m"
-        yield Finding("rises_m", f"{up:.2f} m", limit, up >= limits.rises_m, up)
+        yield Finding("rises_m", f"{up:.2f} m", f"at least {height_m:g} m", up >= height_m, up)
 
 
 def stayed(limits: Limits, trace: Trace) -> Iterator[Finding]:

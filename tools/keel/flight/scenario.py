@@ -33,6 +33,7 @@ Share = Annotated[float, Field(ge=0.0, le=1.0)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0)]
 Turn = Annotated[float, Field(ge=-1.0, le=1.0)]
 Positive = Annotated[float, Field(gt=0.0, le=1e6)]
+RISES = 0.75  # Of the greatest height that the pilot asks for.
 Measure = Annotated[float, Field(ge=0.0, le=1e3)]
 Milliseconds = Annotated[int, Field(ge=1, le=1000)]
 Mode = Literal["acro", "land", "angle", "altitude", "position", "return"]
@@ -264,7 +265,8 @@ class Limits(Table):
     sink_max: Positive | None = None  # When it touches the ground, in m/s.
     skipped_max: Annotated[int, Field(ge=0)] | None = None  # Runs of real-time tasks left out.
     without_fault_deg: Positive | None = None  # Of roll and pitch: from the same flight unbroken.
-    rises_m: Positive | None = None  # So high it is at some time, at least.
+    # So high it is at some time, at least; if it is not given, RISES of what the pilot asks for.
+    rises_m: Annotated[float, Field(ge=0.0, le=1e6)] | None = None
     stays: list[State] = []  # In one of these, if any are named.
     reach: list[Reach] = []
     end: End = End()
@@ -294,6 +296,13 @@ class Scenario(Table):
     parameters: dict[Text, float] = {}  # Of the copter, as a ground station sets them; bool: 0, 1.
     limits: Limits = Limits()
     expects_failure: bool = False  # The limits must be broken: what is compared with is worse.
+
+    @property
+    def rises_m(self) -> float:
+        """How high it must be at some time: upper limits hold on the ground, too."""
+        if self.limits.rises_m is not None:
+            return self.limits.rises_m
+        return RISES * max((hand.height_m or 0.0 for hand in self.pilot), default=0.0)
 
 
 def mistakes(scenario: Scenario) -> Iterator[Mistake]:
