@@ -30,7 +30,7 @@ from keel.install.cache import Cache
 from keel.install.found import Finder, answer
 from keel.install.groups import requirements_of
 from keel.install.lock import LOCK_FILE, Lock, Spec
-from keel.install.mirror import debian_mirror
+from keel.install.mirror import debian_mirrors
 from keel.install.unpack import Tree, write_starter
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -471,6 +471,20 @@ class OtherSuites(Sandbox):
         with self.assertRaisesRegex(ToolchainError, "cannot read Debian trixie(.|\n)*resolving"):
             self.suite().update()
 
+    def test_a_suite_that_a_mirror_dropped_comes_from_the_next(self) -> None:
+        """Only the archive's line leaves a list behind."""
+        folder = self.folder / "apt"
+        found = f": > {folder}/lists/archive_dists_trixie_main_binary-amd64_Packages"
+        words = f'read -r line < {folder}/sources.list; case "$line" in *x:/archive*) {found} ;;'
+        self.script("apt-get", f"{words} *) exit 100 ;; esac")
+        suite = self.suite()
+        os.environ["KEEL_DEBIAN_MIRROR"] = "x:/mirror x:/archive x:/never"
+        suite.update()
+        self.assertIn(" x:/archive trixie main", (folder / "sources.list").read_text())
+        os.environ["KEEL_DEBIAN_MIRROR"] = "x:/mirror x:/other"
+        with self.assertRaisesRegex(ToolchainError, "x:/mirror trixie(.|\\n)*x:/other trixie"):
+            suite.update()
+
     def test_everything_of_apt_is_private(self) -> None:
         self.script("apt-get", f'echo "$@" >> {self.folder}/words; exit 1')
         suite = self.suite()
@@ -513,7 +527,8 @@ class Mirrors(Sandbox):
             file = name.removeprefix("parts_").replace("_", ".")
             target = etc / "sources.list.d" / file if "parts_" in name else etc / "sources.list"
             target.write_text(text)
-        return debian_mirror(["-o", f"Dir::Etc={etc}", "-o", f"Dir::State::lists={lists}"])
+        settings = ["-o", f"Dir::Etc={etc}", "-o", f"Dir::State::lists={lists}"]
+        return " ".join(debian_mirrors(settings))
 
     def test_one_line_format(self) -> None:
         text = "# deb http://old/debian bookworm main\ndeb-src http://src/debian bookworm main\n"
@@ -538,8 +553,8 @@ class Mirrors(Sandbox):
             read = self.folder / f"lists/{place}_dists_bookworm"
             Path(f"{read}_Release").write_text(RELEASE.format(owner=owner, cpu=cpu))
             Path(f"{read}_main_binary-{cpu}_Packages").write_text("Package: x\n")
-        mirror = debian_mirror([word for one in settings for word in ("-o", one)])
-        self.assertEqual(mirror, "http://house/mirror")
+        mirrors = debian_mirrors([word for one in settings for word in ("-o", one)])
+        self.assertEqual(mirrors, ["http://house/mirror"])
 
     def test_security_and_media_do_not_count(self) -> None:
         text = "deb http://host/debian-security bookworm-security main\n"
@@ -548,8 +563,8 @@ class Mirrors(Sandbox):
             self.mirror(list=text)
 
     def test_the_environment_may_choose(self) -> None:
-        os.environ["KEEL_DEBIAN_MIRROR"] = "x:/chosen"
-        self.assertEqual(self.mirror(), "x:/chosen")
+        os.environ["KEEL_DEBIAN_MIRROR"] = "x:/chosen  x:/archive"
+        self.assertEqual(self.mirror(), "x:/chosen x:/archive")
 
 
 class Verdicts(Sandbox):

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from keel.install.found import answer
 from keel.install.lock import LOCK_FILE, ToolchainError
-from keel.install.mirror import debian_mirror
+from keel.install.mirror import debian_mirrors
 
 DEBIAN_KEYRING = Path("/usr/share/keyrings/debian-archive-keyring.gpg")
 
@@ -115,20 +115,37 @@ class Suite:
         self.log = log
 
     def update(self) -> None:
-        """Write the private configuration and read the suite's package lists."""
+        """Write the private configuration and read the suite's package lists.
+
+        Debian moves a suite to its archive some time after the end of its support: of several
+        mirrors the first that has the suite is taken.
+        """
         if not shutil.which("apt-get"):
             raise ToolchainError(f"this system has no apt-get to fetch from Debian {self.name}")
         for part in ("lists/partial", "cache/archives/partial"):
             (self.folder / part).mkdir(parents=True, exist_ok=True)
         (self.folder / "status").touch()
+        refusals = []
+        for mirror in debian_mirrors():
+            if not (refusal := self._read(mirror)):
+                return
+            refusals.append(refusal)
+        raise ToolchainError(
+            "\n".join(refusals) + "\n    KEEL_DEBIAN_MIRROR may name several mirrors, also Debian's"
+            " archive, to which old suites move"
+        )
+
+    def _read(self, mirror: str) -> str:
+        """Read the suite's lists from a mirror; why that cannot be done, or nothing."""
         index = "Sources" if self.kind == "deb-src" else "Packages"
         options = f"[signed-by={DEBIAN_KEYRING} target={index}]"
-        line = f"{self.kind} {options} {debian_mirror()} {self.name} main"
+        line = f"{self.kind} {options} {mirror} {self.name} main"
         (self.folder / "sources.list").write_text(line + "\n")
         status = self.log.run(["apt-get", *self._options(), "update"])
         # apt calls it a success when no server answered at all: look for what it should have read.
-        if status != 0 or not any((self.folder / "lists").glob(f"*_{index}*")):
-            raise ToolchainError(f"cannot read Debian {self.name} ({line}):{self.log.tail()}")
+        if status == 0 and any((self.folder / "lists").glob(f"*_{index}*")):
+            return ""
+        return f"cannot read Debian {self.name} ({line}):{self.log.tail()}"
 
     def download(self, package: str, version: str, into: Path) -> Path:
         """Fetch one binary package, in that version, or in the suite's own if it is ""."""

@@ -12,7 +12,7 @@ could not be had (the reason, tool by tool, on stderr), or for a wrong command l
 Environment:
     KEEL_CACHE          the cache, shared by all clones (default ${XDG_CACHE_HOME:-~/.cache}/keel)
     KEEL_NO_INSTALL     set to 1 to look for tools only, never to install any
-    KEEL_DEBIAN_MIRROR  a Debian mirror to use instead of the one of the host's apt configuration
+    KEEL_DEBIAN_MIRROR  Debian mirrors to use instead of the one of the host's apt configuration
 """
 
 from __future__ import annotations

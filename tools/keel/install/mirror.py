@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Debian mirror that the host uses, as its apt tells it."""
+"""The Debian mirrors: the one that the host uses, as its apt tells it, or those that a user names."""
 
 from __future__ import annotations
 
@@ -25,20 +25,21 @@ def archives(settings: Sequence[str], *options: str) -> list[tuple[str, str]]:
     return [(uri, owner) for uri, suite, owner in LINE.findall(output) if suite in DEBIAN_SUITES]
 
 
-def debian_mirror(settings: Sequence[str] = ()) -> str:
-    """The mirror from which the host takes Debian, so that other suites come from there too.
+def debian_mirrors(settings: Sequence[str] = ()) -> list[str]:
+    """The mirrors that have Debian's suites: those that the environment names, the first that has
+    the suite wins; else the one from which the host takes Debian.
 
     Third parties use the names of Debian's suites, too. Who is who apt knows where it has read the
     lists; where not, an archive counts first that is called debian. `settings` are apt's.
     """
     if chosen := os.environ.get("KEEL_DEBIAN_MIRROR"):
-        return chosen
+        return chosen.split()
     if read := [uri for uri, owner in archives(settings) if owner == "Debian"]:
-        return read[0]
+        return read[:1]
     configured = [uri for uri, _ in archives(settings, "--no-release-info")]
     if not configured:
         raise ToolchainError(
             "no Debian mirror: apt-get indextargets lists no Debian suite with component main "
             "(KEEL_DEBIAN_MIRROR=<uri> sets one)"
         )
-    return min(configured, key=lambda uri: not uri.endswith("/debian"))
+    return [min(configured, key=lambda uri: not uri.endswith("/debian"))]
