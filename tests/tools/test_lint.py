@@ -57,7 +57,7 @@ class ModelTest(unittest.TestCase):
             "}",
         )
         texts = [self.HEADER, *self.ABOVE, source]
-        return [one.reason for one in models.check_models(texts, house.LAYERS)]
+        return [one.reason for one in models.check_models(texts, house.read_order().layers)]
 
     def test_a_model_that_keeps_them(self) -> None:
         self.assertEqual(
@@ -118,7 +118,7 @@ class ModelTest(unittest.TestCase):
                 self.assertEqual(self.findings(before=tuple(line.split("\n"))), [why])
 
     def test_what_is_declared_is_said(self) -> None:
-        found = [one.reason for one in models.check_models([self.HEADER], house.LAYERS)]
+        found = [one.reason for one in models.check_models([self.HEADER], house.read_order().layers)]
         why = "model_box_put is declared, and no source of box says what it does"
         self.assertEqual(found, [why])
 
