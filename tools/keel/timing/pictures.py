@@ -47,14 +47,14 @@ class Box(NamedTuple):
 
 
 LAYERS = ("flight", "middleware", "rtos")
-NAMES = 88  # Letters of a line of units' names.
+NAMES = 64  # Letters of a line of units' names.
 
 
 def units_of(layer: str) -> str:
     """The units of a layer."""
     headers = {path.stem for path in (ROOT / "include/keel").glob(f"**/{layer}/*.h")}
     names = sorted(name for name in headers if not name.endswith("_state"))
-    return textwrap.fill("   ".join(names), NAMES)
+    return textwrap.fill("  ".join(names), NAMES)
 
 
 def flies() -> list[Box]:
@@ -73,7 +73,7 @@ SHOWS = (
     Box("mistakes on purpose", "a proof must notice each", RED, "mutants"),
     Box("tests", "on the host and on an emulated Cortex-M7", ORANGE, "sanitizers, QEMU"),
 )
-HEIGHT, STEP = 0.66, 0.77  # Of a box, and from one to the next.
+HEIGHT, STEP = 0.70, 0.77  # Of a box, and from one to the next.
 
 
 def draw_box(axes: Axes, box: Box, left: float, bottom: float, width: float, height: float) -> None:
@@ -82,9 +82,9 @@ def draw_box(axes: Axes, box: Box, left: float, bottom: float, width: float, hei
 
     axes.add_patch(Rectangle((left, bottom), width, height, facecolor="white", edgecolor="#cccccc"))
     axes.add_patch(Rectangle((left, bottom), 0.06, height, facecolor=box.colour))
-    top = bottom + height - 0.1
+    top = bottom + height - 0.08
     axes.text(left + 0.18, top, box.title, weight="bold", va="top")
-    axes.text(left + 0.18, top - 0.26, box.text, va="top", fontsize=8, linespacing=1.3)
+    axes.text(left + 0.18, top - 0.22, box.text, va="top", fontsize=8, linespacing=1.15)
     axes.text(left + width - 0.12, top, box.tool, va="top", ha="right", color=GREY, fontsize=8)
 
 
