@@ -110,9 +110,7 @@ def print_steps(budget: Budget, steps: Mapping[str, Kind]) -> None:
     print("  On the Cortex-M7 none of them has double precision or calls a library.")
 
 
-def print_figures(
-    budget: Budget, host: Mapping[str, Kind], counted: Mapping[str, Kind]
-) -> None:
+def print_figures(budget: Budget, host: Mapping[str, Kind], counted: Mapping[str, Kind]) -> None:
     print("\nInstructions, mean (longest)         host  Cortex-M7             budget   goal")
     for name, figure in budget.figures.items():
         shown = f"{host[name].mean:9.1f}" if name in host else f"{'-':>9}"

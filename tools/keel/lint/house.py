@@ -13,6 +13,7 @@ from keel.config import Mistake, Table, read_toml
 from keel.lint.models import check_models
 from keel.lint.prose import check_prose
 from keel.lint.texts import Finding, Text
+from keel.lint.unit_tables import check_unit_tables
 
 LINE_LIMIT = 100
 # In two parts, so that this file does not break the rules that it checks.
@@ -227,3 +228,4 @@ def check_house(texts: Sequence[Text]) -> Iterator[Finding]:
     yield from check_reached(texts)
     yield from check_models(texts, read_order().layers)
     yield from check_prose(texts)
+    yield from check_unit_tables(texts)

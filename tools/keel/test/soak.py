@@ -38,7 +38,13 @@ FLAGS = ["-std=c99", "-O2", "-ffp-contract=off", "-Iinclude"]
 def scheduler(tools: Toolchain, size: str, steps: int) -> list[str | Path]:
     """The command that drives the scheduler, at one capacity of its queue."""
     build = Build(tools, "gcc", [*FLAGS, *CAPACITIES[size][1]], ROOT / BUILD / size)
-    return [build.program("scheduler", [*KERNEL, *with_code(PROPERTIES)]), "--seed", str(SEED), "--steps", str(steps)]
+    return [
+        build.program("scheduler", [*KERNEL, *with_code(PROPERTIES)]),
+        "--seed",
+        str(SEED),
+        "--steps",
+        str(steps),
+    ]
 
 
 def floats(tools: Toolchain, steps: int) -> list[str | Path]:
