@@ -51,22 +51,10 @@ class TraceTest(TracedProject):
                 "",
                 "harness:widget/keel_widget_turn_harness",
                 "",
-                "",
                 "good",
             ),
         )
         self.assertEqual(rows["requirement:WID-003"][0], "derived")
-
-    def test_mutants_of_this_tree_are_counted(self) -> None:
-        self.reports["mutate/widget.json"] = {
-            "mutants": [
-                {"function": "nudge", "status": "killed"},
-                {"function": "push", "status": "survived"},
-            ]
-        }
-        self.assertEqual(self.part(make).tables[0].rows[0][-1], "1 of 2 killed")
-        self.reports["mutate/widget.json"]["made_from"] = {"tree": "other"}
-        self.assertEqual(self.part(make).tables[0].rows[0][-1], "")
 
     def test_an_orphan_requirement(self) -> None:
         self.change(LOW, "<<<\nRELATIONS:\n- TYPE: Parent\n  VALUE: HLR-001\n", "<<<\n")
