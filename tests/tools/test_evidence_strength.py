@@ -131,7 +131,9 @@ class Mutants(StrengthTest):
         self.explain(3, "no difference")
         self.record()
         self.replace("proofs/range/equivalent.toml", "return ", "give ")
-        self.assert_problem(self.part(), "proofs/range/equivalent.toml: entry 1: keel_range", "give ")
+        self.assert_problem(
+            self.part(), "proofs/range/equivalent.toml: entry 1: keel_range", "give "
+        )
         self.assertIn("entry 1: keel_range", self.told()[2])
 
     def test_what_nobody_has_explained_is_not_recorded_as_explained(self) -> None:

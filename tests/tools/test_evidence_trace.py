@@ -19,9 +19,7 @@ class TraceTest(TracedProject):
         part = self.part(make)
         self.assertEqual(part.problems, ())
         self.assertEqual([item.state for item in part.items], ["good"] * 3)
-        self.assertEqual(
-            part.tables[0].rows, (("widget", "3", "1", "2", "2", "1", "", "1", "1", ""),)
-        )
+        self.assertEqual(part.tables[0].rows, (("widget", "3", "1", "2", "2", "1", "", "1", "1"),))
 
     def test_a_function_leads_both_ways(self) -> None:
         items = {item.id: item for item in self.part(make).items}

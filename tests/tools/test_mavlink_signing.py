@@ -16,6 +16,8 @@ import unittest
 from pathlib import Path
 from typing import Any, ClassVar
 
+from shim import library_of
+
 from keel.base.run import output_of
 from keel.install import Toolchain
 
@@ -128,25 +130,8 @@ class Signing(unittest.TestCase):
             f"-I{carried / 'karamel/include'}",
             f"-I{carried / 'karamel/krmllib/dist/minimal'}",
         ]
-        shim, built = cls.folder / "shim.c", cls.folder / "shim.so"
-        shim.write_text(SHIM)
-        output_of(
-            [
-                "gcc",
-                "-std=gnu11",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                "-w",
-                f"-I{ROOT / 'include'}",
-                shim,
-                *[ROOT / name for name in SOURCES],
-                *cls.hacl,
-                "-o",
-                built,
-            ]
-        )
-        cls.library = ctypes.CDLL(str(built))
+        flags = ("-std=gnu11", "-w", "-Iinclude")
+        cls.library = library_of(cls, SHIM, [*SOURCES, *map(str, cls.hacl)], flags)
         cls.library.timestamp.restype = ctypes.c_ulonglong
 
     def setUp(self) -> None:

@@ -91,7 +91,9 @@ def strays(unit: Unit) -> Iterator[str]:
     sources = [csource.essence(path.read_text(encoding="utf-8")) for path in unit.own_files]
     text = " ".join(" ".join(sources).split())
     place = f"proofs/{unit.name}/equivalent.toml"
-    for number, (function, original, _, _) in enumerate(read_equivalent(unit.folder / "equivalent.toml"), 1):
+    for number, (function, original, _, _) in enumerate(
+        read_equivalent(unit.folder / "equivalent.toml"), 1
+    ):
         if original not in text:
             yield f"{place}: entry {number}: {function} has no line `{original}` any more, remove it"
 
