@@ -32,7 +32,10 @@ def read_kinds(output: str) -> Kinds:
     if "\nbench ended\n" not in output:
         last = output.strip().splitlines()[-1:] or ["nothing"]
         raise ToolError(f"the target's bench did not end well; last it said: {last[0]}")
-    return {name: Kind(*map(int, words)) for name, *words in LINE.findall(output)}
+    return {
+        name: Kind(int(passes), int(instructions), int(longest))
+        for name, passes, instructions, longest in LINE.findall(output)
+    }
 
 
 def figures_of(kinds: Kinds, budget: Budget) -> Kinds:
