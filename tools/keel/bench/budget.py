@@ -86,6 +86,6 @@ def accept(counted: Mapping[str, Kind], path: Path = BUDGET) -> None:
         text, count = re.subn(line, rf"\g<1>{kind.mean:.1f}\g<2>", text)
         if count != 1:
             raise ToolError(
-                f"{place_of(path)}: {count} lines `{name} = {{ ..., budget = ... }}`, one is expected"
+                f"{place_of(path)}: {count} lines `{name} = {{ ..., budget = ... }}`, not one"
             )
     write_text(path, text)

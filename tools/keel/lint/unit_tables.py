@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""No tool has a table of units: what a unit needs of tests, benches or exceptions stands in data, so
-that a new one changes no tool.
+"""No tool has a table of units: what a unit needs of tests, benches or exceptions stands in data,
+so that a new one changes no tool.
 """
 
 from __future__ import annotations

@@ -95,7 +95,8 @@ def strays(unit: Unit) -> Iterator[str]:
         read_equivalent(unit.folder / "equivalent.toml"), 1
     ):
         if original not in text:
-            yield f"{place}: entry {number}: {function} has no line `{original}` any more, remove it"
+            gone = f"{function} has no line `{original}` any more, remove it"
+            yield f"{place}: entry {number}: {gone}"
 
 
 def standings(

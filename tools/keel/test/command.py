@@ -71,7 +71,8 @@ DRIVERS = ("bsp/common/*.c", "bsp/devices/*.c", "bsp/stm32f767/*.c")
 # What only this suite has: drivers of a file system that is fetched, and that file system.
 FATFS_SUITE, FATFS_DRIVERS = "bsp/black_box", "bsp/fatfs"
 
-# The property test, with its model and what drives both, runs with the queue's own capacity, and with one that it often fills.
+# The property test, with its model and what drives both, runs with the queue's own capacity, and
+# with one that it often fills.
 PROPERTIES = "tests/property/test_scheduler.c"
 CAPACITIES: dict[str, tuple[int, list[str]]] = {
     "default": (1_000_000, []),

@@ -343,8 +343,8 @@ def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
 
 # --- All of them ---------------------------------------------------------------------------------
 
-# In seconds, alone: applications, and tests of many random steps; of the others none takes two. They
-# begin, so that none is left at the end.
+# In seconds, alone: applications, and tests of many random steps; of the others none takes two.
+# They begin, so that none is left at the end.
 LONG_S = {"demo": 40.0, "copter": 20.0, "differential": 20.0}
 MANY_STEPS, MANY_STEPS_S = ("specified", "_motion"), 10.0
 
