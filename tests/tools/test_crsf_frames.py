@@ -12,14 +12,13 @@ import importlib
 import io
 import random
 import shutil
-import sys
 import unittest
 from pathlib import Path
 from typing import Any, ClassVar
 
 from shim import library_of
 
-from keel.install import Toolchain
+from keel.install.packages import provide
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -61,11 +60,7 @@ class Frames(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        tools = Toolchain()
-        tools.ensure("radio")
-        packages = tools.command("radio-packages")[0]
-        sys.path.insert(0, packages)
-        cls.addClassCleanup(sys.path.remove, packages)
+        provide("radio")
         cls.parser = importlib.import_module("crsf_parser")
         cls.handling = importlib.import_module("crsf_parser.handling")
         cls.types = importlib.import_module("crsf_parser.payloads").PacketsTypes

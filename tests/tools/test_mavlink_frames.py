@@ -11,7 +11,6 @@ import ctypes
 import os
 import random
 import shutil
-import sys
 import unittest
 from collections.abc import Callable
 from pathlib import Path
@@ -19,7 +18,7 @@ from typing import Any, ClassVar
 
 from shim import library_of
 
-from keel.install import Toolchain
+from keel.install.packages import provide
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -82,9 +81,7 @@ LATEST = 265
 
 def pymavlink() -> Any:
     """Its common messages, of MAVLink 2."""
-    tools = Toolchain()
-    tools.ensure("mavlink")
-    sys.path.insert(0, tools.command("mavlink-packages")[0])
+    provide("mavlink")
     os.environ["MAVLINK20"] = "1"
     from pymavlink.dialects.v20 import common
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 import ctypes
 import importlib
 import shutil
-import sys
 import unittest
 from io import BytesIO
 from pathlib import Path
@@ -14,7 +13,7 @@ from typing import Any, ClassVar
 
 from shim import library_of
 
-from keel.install import Toolchain
+from keel.install.packages import provide
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("bsp/devices/ublox.c", "bsp/common/progress.c", "src/middleware/ubx.c")
@@ -57,9 +56,7 @@ class Settings(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        tools = Toolchain()
-        tools.ensure("ubx")
-        sys.path.insert(0, tools.command("ubx-packages")[0])
+        provide("ubx")
         cls.pyubx2 = importlib.import_module("pyubx2")
         cls.library = library_of(cls, SHIM, SOURCES, ("-Iinclude", "-Ibsp"))
 

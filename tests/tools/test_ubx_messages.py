@@ -7,7 +7,6 @@ import ctypes
 import importlib
 import random
 import shutil
-import sys
 import unittest
 from io import BytesIO
 from pathlib import Path
@@ -16,7 +15,7 @@ from typing import Any, ClassVar
 from shim import library_of
 
 from keel.flight import device_frames
-from keel.install import Toolchain
+from keel.install.packages import provide
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -78,9 +77,7 @@ class Messages(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        tools = Toolchain()
-        tools.ensure("ubx")
-        sys.path.insert(0, tools.command("ubx-packages")[0])
+        provide("ubx")
         cls.pyubx2 = importlib.import_module("pyubx2")
         cls.library = library_of(cls, SHIM, ["src/middleware/ubx.c"])
         for name in FIELDS:
