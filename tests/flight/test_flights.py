@@ -12,38 +12,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from short_flight import SHORT, short
 
 from keel.base.errors import ROOT
 from keel.flight import command as fly
-from keel.flight import library, loop, montecarlo, plants, scenario, varied
+from keel.flight import library, loop, montecarlo, plants, varied
 from keel.flight.library import Copter
 from keel.flight.loop import Order
 from keel.install import Toolchain
-
-SHORT = """description = "up and down"
-duration_s = 8.0
-mode = "altitude"
-wind = { speed = 3.0, turbulence = 0.2 }
-
-[[pilot]]
-at_s = 0.5
-height_m = 4.0
-
-[[pilot]]
-at_s = 5.0
-mode = "land"
-
-[limits]
-from_s = 0.0
-tilt_max_deg = 20.0
-end = { on_ground = false, motors_on = true }
-"""
-
-
-def short(folder: Path) -> scenario.Scenario:
-    """A flight that takes little time."""
-    (folder / "short.toml").write_text(SHORT)
-    return scenario.read("short", folder)
 
 
 @pytest.mark.parametrize("plant", plants.NAMES)

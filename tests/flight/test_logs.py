@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 from pyulog import ULog
+from short_flight import short
 
 from keel.base.errors import ROOT, ToolError
-from keel.flight import library, log_plots, loop, scenario
+from keel.flight import library, log_plots, loop
 from keel.flight import log as log_tool
 from keel.flight.library import Copter, Link
 from keel.flight.loop import Order, Trace
@@ -26,24 +27,6 @@ from keel.flight.spectrum import spectrum
 from keel.install import Toolchain
 from keel.timeline import runs, ulog
 
-SHORT = """description = "up and down"
-duration_s = 8.0
-mode = "altitude"
-wind = { speed = 3.0, turbulence = 0.2 }
-
-[[pilot]]
-at_s = 0.5
-height_m = 4.0
-
-[[pilot]]
-at_s = 5.0
-mode = "land"
-
-[limits]
-from_s = 0.0
-tilt_max_deg = 20.0
-end = { on_ground = false, motors_on = true }
-"""
 GRAVITY = 9.80665
 # Of unit 1's accelerometer and gyroscope: Hz and amplitude. Two samples of the 1000 a second make
 # one that is logged, whose amplitude is less by cos(pi f / 1000).
@@ -52,8 +35,7 @@ SHAKES = {41.0: 2.0, 87.0: 1.0, 163.0: 1.5}
 
 def order(folder: Path) -> Order:
     """A flight that takes little time."""
-    (folder / "short.toml").write_text(SHORT)
-    return Order(scenario.read("short", folder), "mujoco", 1)
+    return Order(short(folder), "mujoco", 1)
 
 
 @pytest.fixture(scope="module")

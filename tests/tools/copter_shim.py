@@ -4,12 +4,10 @@
 from __future__ import annotations
 
 import ctypes
-import shutil
-import tempfile
 import unittest
 from pathlib import Path
 
-from keel.base.run import output_of
+from shim import below, library_of
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMON = ("slots", "task_table", "trace", "trace_log")
@@ -33,32 +31,12 @@ static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
 
 def copter_of(case: type[unittest.TestCase], shim: str) -> ctypes.CDLL:
     """The copter, linked with a shim in C, for as long as the case's tests run."""
-    scratch = tempfile.mkdtemp()
-    case.addClassCleanup(shutil.rmtree, scratch)
-    source, library = Path(scratch, "shim.c"), Path(scratch, "copter.so")
-    source.write_text(shim, encoding="utf-8")
     folders = ("include", "bsp", "examples/urpilot", "examples/copter")
     sources = [
-        *sorted((ROOT / "examples/copter").glob("*.c")),
-        ROOT / "examples/urpilot/urpilot_tasks.c",
-        *(ROOT / f"bsp/common/{name}.c" for name in COMMON),
-        *sorted((ROOT / "src").rglob("*.c")),
+        *below("examples/copter"),
+        "examples/urpilot/urpilot_tasks.c",
+        *(f"bsp/common/{name}.c" for name in COMMON),
+        *below("src"),
     ]
-    output_of(
-        [
-            "gcc",
-            "-std=c99",
-            "-O1",
-            "-Wall",
-            "-Werror",
-            "-shared",
-            "-fPIC",
-            *(f"-I{ROOT / folder}" for folder in folders),
-            source,
-            *sources,
-            "-lm",
-            "-o",
-            library,
-        ]
-    )
-    return ctypes.CDLL(str(library))
+    flags = ("-Wall", "-Werror", *(f"-I{folder}" for folder in folders))
+    return library_of(case, shim, sources, flags)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import subprocess
 from functools import cache
 from pathlib import Path
 
@@ -27,3 +28,17 @@ def rule_of(command: str) -> str:
     target = found[1] if found else ""
     name = NAME.search(command) if target in COLLECTIVE else None
     return f"{target}/{name[1]}" if name else target
+
+
+def make_in(folder: Path, *words: str) -> tuple[int, str]:
+    """Run make in a project of a user, with Keel's rules: exit status, and what is said."""
+    ended = subprocess.run(
+        ["make", "-f", str(ROOT / "keel.mk"), *words],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        check=False,
+        text=True,
+        timeout=900,
+    )
+    return ended.returncode, ended.stdout

@@ -60,6 +60,12 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("keel: there is no command prov; did you mean prove?", done.stderr)
 
+    def test_names_without_names_are_refused(self) -> None:
+        for words in ((), ("variable",), ("variable", "UNTI"), ("variable", "--", "UNIT")):
+            done = called("names", *words)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), words)
+            self.assertIn("names: expected KIND WORD", done.stderr)
+
     def test_a_group_without_a_program_is_refused(self) -> None:
         done = called("with", "timing")
         self.assertEqual((done.returncode, done.stdout), (2, ""))

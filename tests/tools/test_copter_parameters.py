@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 from typing import ClassVar
 
-from keel.base.run import output_of
+from shim import below, library_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -106,36 +106,16 @@ class CopterParameters(unittest.TestCase):
     def setUpClass(cls) -> None:
         cls.scratch = tempfile.mkdtemp()
         cls.addClassCleanup(shutil.rmtree, cls.scratch)
-        shim, library = Path(cls.scratch, "shim.c"), Path(cls.scratch, "copter.so")
-        shim.write_text(SHIM, encoding="utf-8")
         folders = ("include", "bsp", "examples/copter", "examples/copter_in_plant")
-        copter = [
-            ROOT / "examples/copter" / f"{name}.c"
-            for name in ("parameters", "parameter_table", "parameter_store", "settings")
-        ]
+        names = ("parameters", "parameter_table", "parameter_store", "settings")
         sources = [
-            *copter,
-            ROOT / "examples/copter_in_plant/file_medium.c",
-            ROOT / "bsp/common/slots.c",
-            *sorted((ROOT / "src/middleware").glob("*.c")),
-            *sorted((ROOT / "src/flight").glob("*.c")),
+            *(f"examples/copter/{name}.c" for name in names),
+            "examples/copter_in_plant/file_medium.c",
+            "bsp/common/slots.c",
+            *below("src/middleware"),
+            *below("src/flight"),
         ]
-        output_of(
-            [
-                "gcc",
-                "-std=c99",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                *(f"-I{ROOT / folder}" for folder in folders),
-                shim,
-                *sources,
-                "-lm",
-                "-o",
-                library,
-            ]
-        )
-        cls.copter = ctypes.CDLL(str(library))
+        cls.copter = library_of(cls, SHIM, sources, [f"-I{folder}" for folder in folders])
         for name in ("critical", "thrust", "idle_thrust"):
             getattr(cls.copter, name).restype = ctypes.c_double
 

@@ -12,14 +12,13 @@ import importlib
 import io
 import random
 import shutil
-import sys
-import tempfile
 import unittest
 from pathlib import Path
 from typing import Any, ClassVar
 
-from keel.base.run import output_of
-from keel.install import Toolchain
+from shim import library_of
+
+from keel.install.packages import provide
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -61,34 +60,13 @@ class Frames(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        tools = Toolchain()
-        tools.ensure("radio")
-        packages = tools.command("radio-packages")[0]
-        sys.path.insert(0, packages)
-        cls.addClassCleanup(sys.path.remove, packages)
+        provide("radio")
         cls.parser = importlib.import_module("crsf_parser")
         cls.handling = importlib.import_module("crsf_parser.handling")
         cls.types = importlib.import_module("crsf_parser.payloads").PacketsTypes
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
-        shim.write_text(SHIM)
-        units = [ROOT / f"src/middleware/{unit}.c" for unit in ("crsf", "framing", "crc")]
-        output_of(
-            [
-                "gcc",
-                "-std=c99",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                f"-I{ROOT / 'include'}",
-                shim,
-                *units,
-                "-o",
-                built,
-            ]
+        cls.library = library_of(
+            cls, SHIM, ["src/middleware/crsf.c", "src/middleware/framing.c", "src/middleware/crc.c"]
         )
-        cls.library = ctypes.CDLL(str(built))
 
     def setUp(self) -> None:
         self.random = random.Random(20261125)

@@ -127,6 +127,15 @@ class Mutants(StrengthTest):
         self.assert_problem(self.part(), OF_RANGE, "stale", "proofs")
         self.assertEqual(self.survivors(), ())
 
+    def test_a_reason_for_a_line_that_is_gone(self) -> None:
+        self.explain(3, "no difference")
+        self.record()
+        self.replace("proofs/range/equivalent.toml", "return ", "give ")
+        self.assert_problem(
+            self.part(), "proofs/range/equivalent.toml: entry 1: keel_range", "give "
+        )
+        self.assertIn("entry 1: keel_range", self.told()[2])
+
     def test_what_nobody_has_explained_is_not_recorded_as_explained(self) -> None:
         self.verdicts[3] = Verdict(self.verdicts[3].mutant, "equivalent", "no difference")
         with self.assertRaisesRegex(ToolError, "range: equivalent.toml has no reason for keel_"):

@@ -19,9 +19,7 @@ class TraceTest(TracedProject):
         part = self.part(make)
         self.assertEqual(part.problems, ())
         self.assertEqual([item.state for item in part.items], ["good"] * 3)
-        self.assertEqual(
-            part.tables[0].rows, (("widget", "3", "1", "2", "2", "1", "", "1", "1", ""),)
-        )
+        self.assertEqual(part.tables[0].rows, (("widget", "3", "1", "2", "2", "1", "", "1", "1"),))
 
     def test_a_function_leads_both_ways(self) -> None:
         items = {item.id: item for item in self.part(make).items}
@@ -51,22 +49,10 @@ class TraceTest(TracedProject):
                 "",
                 "harness:widget/keel_widget_turn_harness",
                 "",
-                "",
                 "good",
             ),
         )
         self.assertEqual(rows["requirement:WID-003"][0], "derived")
-
-    def test_mutants_of_this_tree_are_counted(self) -> None:
-        self.reports["mutate/widget.json"] = {
-            "mutants": [
-                {"function": "nudge", "status": "killed"},
-                {"function": "push", "status": "survived"},
-            ]
-        }
-        self.assertEqual(self.part(make).tables[0].rows[0][-1], "1 of 2 killed")
-        self.reports["mutate/widget.json"]["made_from"] = {"tree": "other"}
-        self.assertEqual(self.part(make).tables[0].rows[0][-1], "")
 
     def test_an_orphan_requirement(self) -> None:
         self.change(LOW, "<<<\nRELATIONS:\n- TYPE: Parent\n  VALUE: HLR-001\n", "<<<\n")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -11,6 +12,7 @@ from keel.base.build import BuildError
 from keel.base.run import Ended
 from keel.install import Toolchain
 from keel.test import fuzzing, oracles
+from keel.test.sources import with_code
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -39,11 +41,41 @@ class Crates(unittest.TestCase):
 
 
 class Targets(unittest.TestCase):
-    """Each file of tests/fuzz is one, and each is one of those."""
+    """Each file of tests/fuzz is one."""
 
-    def test_every_file_is_a_target(self) -> None:
-        files = {path.stem.removeprefix("fuzz_") for path in ROOT.glob("tests/fuzz/fuzz_*.c")}
-        self.assertEqual(files, set(fuzzing.TARGETS))
+    def test_a_target_needs_no_more_than_its_files(self) -> None:
+        root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for name, text in {
+            "tests/fuzz/oracles.h": "",
+            "tests/fuzz/fuzz_rotor.c": '#include "../../specs/model/rotor.h"\n'
+            '#include "oracles.h"\n#include "keel/flight/rotor.h"\n',
+            "tests/fuzz/fuzz_wing.c": '#include "../../specs/model/wing.h"\n',
+            "specs/model/rotor.h": "",
+            "specs/model/rotor.c": '#include "rotor.h"\n',
+            "specs/model/rotor_parts.c": '#include "rotor.h"\n\n#include "blade.h"\n',
+            "specs/model/rotor_blade.h": "",
+            "specs/model/rotor_blade.c": '#include "rotor_blade.h"\n',
+            "specs/model/rotors.c": "",
+            "specs/model/blade.h": "",
+            "specs/model/blade.c": '#include "blade.h"\n#include "rotor.h"\n',
+            "specs/model/wing.h": "",
+            "specs/model/wing.c": '#include "wing.h"\n',
+        }.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text)
+        self.assertEqual(
+            sorted(with_code("tests/fuzz/fuzz_rotor.c", root)),
+            [
+                *(f"specs/model/{name}.c" for name in ("blade", "rotor", "rotor_parts")),
+                "tests/fuzz/fuzz_rotor.c",
+            ],
+        )
+        for runs, names in ((0, ["rotor", "wing"]), (1, ["rotor"])):
+            suites = fuzzing.fuzz_suites(Toolchain(), fuzzing.Fuzzing(1, runs), root)
+            self.assertEqual([suite.name for suite in suites], names)
+            self.assertEqual(suites[0].groups, ("fuzz", "oracles"))
+        (root / "tests/fuzz/oracle_rotor.c").write_text("")
+        self.assertEqual(oracles.groups("rotor", root), ("mavlink",))
 
     def test_counted_executions_are_of_those_that_others_judge(self) -> None:
         suites = fuzzing.fuzz_suites(Toolchain(), fuzzing.Fuzzing(60, 1000))

@@ -21,7 +21,7 @@ from keel.base.errors import ToolError
 from keel.base.source import STAMP, files_below, stamp_of
 from keel.install import Toolchain
 from keel.lint import command as lint
-from keel.lint import house, misra, models, prose, record
+from keel.lint import house, misra, models, prose, record, unit_tables
 from keel.lint.misra import Deviation, Violation
 from keel.lint.texts import Finding, Text
 
@@ -35,6 +35,58 @@ def text(path: str, *lines: str) -> Text:
 def places(findings: object) -> list[tuple[str, int]]:
     assert isinstance(findings, list)
     return [(finding.file, finding.line) for finding in findings]
+
+
+class UnitTablesTest(unittest.TestCase):
+    """No tool has a table of units."""
+
+    UNITS = ("pid", "mixer", "log_ring", "log", "crsf", "rotor")
+    NAMES = ("pid", "mixer", "log_ring", "crsf", "rotor")
+
+    def lines(self, *source: str, path: str = "tools/keel/test/a.py") -> list[int]:
+        headers = [text(f"include/keel/flight/{unit}.h", "") for unit in self.UNITS]
+        found = unit_tables.check_unit_tables([*headers, text(path, *source)])
+        return [one.line for one in found]
+
+    def test_tables_however_they_name_units(self) -> None:
+        steps = ", ".join(f'("a {name}", "keel_{name}_step", 3)' for name in self.NAMES)
+        files = ", ".join(f'"specs/model/{name}.c"' for name in self.NAMES)
+        tests = ", ".join(f'"unit/{name}_specified": 5.0' for name in self.NAMES)
+        for table in (repr(self.NAMES), f"[{steps}]", f"{{{files}}}", f"{{{tests}}}"):
+            self.assertEqual(self.lines("X = 1", f"Y = {table}"), [2], table)
+
+    def test_a_table_is_told_once_with_its_units(self) -> None:
+        headers = [text(f"include/keel/flight/{unit}.h", "") for unit in self.UNITS]
+        tool = text("tools/keel/a.py", f"X = {{'all': {self.NAMES}, 'more': []}}")
+        (found,) = unit_tables.check_unit_tables([*headers, tool])
+        self.assertEqual(
+            found.reason, "a table of units, which is data: crsf, log_ring, mixer, pid, rotor, ..."
+        )
+
+    def test_few_units_and_other_words_are_none(self) -> None:
+        self.assertEqual(self.lines(f"X = {self.NAMES[:4]}"), [])
+        self.assertEqual(self.lines(f"X = {('log', *self.NAMES[:3], 'pidgin', 'remixer')}"), [])
+        self.assertEqual(self.lines(f"X = {[name.upper() for name in self.NAMES]}"), [])
+
+    def test_tests_may(self) -> None:
+        self.assertEqual(self.lines(f"X = {self.NAMES}", path="tests/tools/test_a.py"), [])
+
+
+class OrderTest(unittest.TestCase):
+    """The order of layers and units."""
+
+    def test_a_file_that_is_refused(self) -> None:
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        good = (ROOT / house.ORDER).read_text(encoding="utf-8")
+        for old, new, reason in (
+            ('["queue"]', '["quue"]', "layers.toml:6: rtos number 3: there is no header of quue"),
+            ('["queue"]', '["task"]', "task stands twice"),
+            ("layers = [", "layer = [", "unknown key; did you mean layers?"),
+        ):
+            (folder / "layers.toml").write_text(good.replace(old, new), encoding="utf-8")
+            with self.subTest(new), self.assertRaises(ToolError) as caught:
+                house.read_order(folder / "layers.toml")
+            self.assertIn(reason, str(caught.exception))
 
 
 class ModelTest(unittest.TestCase):
@@ -57,7 +109,7 @@ class ModelTest(unittest.TestCase):
             "}",
         )
         texts = [self.HEADER, *self.ABOVE, source]
-        return [one.reason for one in models.check_models(texts, house.LAYERS)]
+        return [one.reason for one in models.check_models(texts, house.read_order().layers)]
 
     def test_a_model_that_keeps_them(self) -> None:
         self.assertEqual(
@@ -118,7 +170,9 @@ class ModelTest(unittest.TestCase):
                 self.assertEqual(self.findings(before=tuple(line.split("\n"))), [why])
 
     def test_what_is_declared_is_said(self) -> None:
-        found = [one.reason for one in models.check_models([self.HEADER], house.LAYERS)]
+        found = [
+            one.reason for one in models.check_models([self.HEADER], house.read_order().layers)
+        ]
         why = "model_box_put is declared, and no source of box says what it does"
         self.assertEqual(found, [why])
 

@@ -11,15 +11,14 @@ import ctypes
 import os
 import random
 import shutil
-import sys
-import tempfile
 import unittest
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, ClassVar
 
-from keel.base.run import output_of
-from keel.install import Toolchain
+from shim import library_of
+
+from keel.install.packages import provide
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -82,9 +81,7 @@ LATEST = 265
 
 def pymavlink() -> Any:
     """Its common messages, of MAVLink 2."""
-    tools = Toolchain()
-    tools.ensure("mavlink")
-    sys.path.insert(0, tools.command("mavlink-packages")[0])
+    provide("mavlink")
     os.environ["MAVLINK20"] = "1"
     from pymavlink.dialects.v20 import common
 
@@ -103,26 +100,7 @@ class Frames(unittest.TestCase):
     def setUpClass(cls) -> None:
         cls.common = pymavlink()
         cls.known = sorted(cls.common.mavlink_map)[:256]
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
-        shim.write_text(SHIM)
-        sources = [ROOT / "src/middleware/mavlink.c", ROOT / "src/middleware/crc.c"]
-        output_of(
-            [
-                "gcc",
-                "-std=c99",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                f"-I{ROOT / 'include'}",
-                shim,
-                *sources,
-                "-o",
-                built,
-            ]
-        )
-        cls.library = ctypes.CDLL(str(built))
+        cls.library = library_of(cls, SHIM, ["src/middleware/mavlink.c", "src/middleware/crc.c"])
         cls.library.payload.restype = ctypes.POINTER(ctypes.c_ubyte)
         cls.library.seal.restype = ctypes.POINTER(ctypes.c_ubyte)
         cls.library.timestamp.restype = ctypes.c_ulonglong

@@ -7,14 +7,15 @@ Needs the group "mavlink" of the toolchain: pymavlink, and a crate that carries 
 from __future__ import annotations
 
 import ctypes
-import os
 import random
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from typing import Any, ClassVar
+
+from shim import library_of
+from test_mavlink_frames import pymavlink
 
 from keel.base.run import output_of
 from keel.install import Toolchain
@@ -112,41 +113,18 @@ class Signing(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        tools = Toolchain()
-        tools.ensure("mavlink")
-        sys.path.insert(0, tools.command("mavlink-packages")[0])
-        os.environ["MAVLINK20"] = "1"
-        from pymavlink.dialects.v20 import common
-
-        cls.common = common
+        cls.common = pymavlink()
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
-        cls.folder, carried = Path(folder.name), Path(tools.command("hacl")[0]) / "c"
+        cls.folder, carried = Path(folder.name), Path(Toolchain().command("hacl")[0]) / "c"
         cls.hacl = [
             carried / "src/Hacl_Hash_SHA2.c",
             f"-I{carried / 'include'}",
             f"-I{carried / 'karamel/include'}",
             f"-I{carried / 'karamel/krmllib/dist/minimal'}",
         ]
-        shim, built = cls.folder / "shim.c", cls.folder / "shim.so"
-        shim.write_text(SHIM)
-        output_of(
-            [
-                "gcc",
-                "-std=gnu11",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                "-w",
-                f"-I{ROOT / 'include'}",
-                shim,
-                *[ROOT / name for name in SOURCES],
-                *cls.hacl,
-                "-o",
-                built,
-            ]
-        )
-        cls.library = ctypes.CDLL(str(built))
+        flags = ("-std=gnu11", "-w", "-Iinclude")
+        cls.library = library_of(cls, SHIM, [*SOURCES, *map(str, cls.hacl)], flags)
         cls.library.timestamp.restype = ctypes.c_ulonglong
 
     def setUp(self) -> None:

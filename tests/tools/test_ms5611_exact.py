@@ -6,13 +6,12 @@ from __future__ import annotations
 import ctypes
 import random
 import shutil
-import tempfile
 import unittest
 from fractions import Fraction
 from pathlib import Path
 from typing import ClassVar, NamedTuple
 
-from keel.base.run import output_of
+from shim import library_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -80,25 +79,7 @@ class Exact(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
-        shim.write_text(SHIM)
-        output_of(
-            [
-                "gcc",
-                "-std=c99",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                f"-I{ROOT / 'include'}",
-                shim,
-                ROOT / "src/middleware/ms5611.c",
-                "-o",
-                built,
-            ]
-        )
-        cls.library = ctypes.CDLL(str(built))
+        cls.library = library_of(cls, SHIM, ["src/middleware/ms5611.c"])
 
     def setUp(self) -> None:
         self.random = random.Random(20261123)

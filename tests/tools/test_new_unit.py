@@ -6,10 +6,11 @@ The provers are the real ones; what they prove is kept in the user's cache.
 
 from __future__ import annotations
 
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+
+from makefile import make_in
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADER = """\
@@ -69,30 +70,16 @@ class New(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.project = Path(folder.name).resolve()
 
-    def make(self, *words: str) -> tuple[int, str]:
-        """Run make in the project, with Keel's rules."""
-        command = ["make", "-f", str(ROOT / "keel.mk"), *words]
-        ended = subprocess.run(
-            command,
-            cwd=self.project,
-            stdout=subprocess.PIPE,
-            check=False,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=900,
-        )
-        return ended.returncode, ended.stdout
-
     def good(self, *words: str) -> str:
         """What make says that succeeds."""
-        status, output = self.make(*words)
+        status, output = make_in(self.project, *words)
         self.assertEqual(status, 0, output)
         return output
 
     def refused(self, *words: str) -> str:
         """What make says that refuses, and leaves every file as it was."""
         before = self.files()
-        status, output = self.make("new", *words)
+        status, output = make_in(self.project, "new", *words)
         self.assertNotEqual(status, 0, output)
         self.assertEqual(self.files(), before)
         return output
@@ -146,10 +133,10 @@ class New(unittest.TestCase):
         self.put("include/motor/valve.h", HEADER)
         output = self.good("new", "UNIT=valve")
         self.assertIn("written src/motor/valve.c", output)
-        self.assertIn("0 of 2 tests passed", self.make("test")[1])
+        self.assertIn("0 of 2 tests passed", make_in(self.project, "test")[1])
         self.put("src/motor/valve.c", SOURCE)
         self.put("specs/model/valve.c", MODEL.replace("motor/valve.h", "valve.h"))
-        output = self.make("prove", "ARGS=--engine cbmc")[1]
+        output = make_in(self.project, "prove", "ARGS=--engine cbmc")[1]
         self.assertIn("determined: 2 of 2 functions for every valid state", output)
         self.assertNotIn("REFUTED", output)
         listed = self.files()["proofs/valve/valve_get_harness.c"]
@@ -162,7 +149,7 @@ class New(unittest.TestCase):
         ):
             wrong = {"1.0f": "2.0f", "step[0]": "step[1]", "part.on;": "part.on ? false : true;"}
             self.put("src/motor/valve.c", SOURCE.replace(slip, wrong[slip]))
-            output = self.make("prove", "ARGS=--engine cbmc")[1]
+            output = make_in(self.project, "prove", "ARGS=--engine cbmc")[1]
             self.assertIn(f"{told}: as the model says: REFUTED", output)
 
     def test_an_array_of_unknown_length_is_told(self) -> None:

@@ -316,7 +316,19 @@ class Verdict(unittest.TestCase):
         self.assertEqual(self.judge([])[0], 1)
 
     def test_the_project_s_reasons_are_read(self) -> None:
-        self.assertTrue(read_reasons())
+        reasons = read_reasons()
+        self.assertTrue(reasons.uncovered)
+        self.assertFalse(reasons.traces(Path("tests/unit/test_mixer_equations.c")))
+        self.assertFalse(reasons.traces(Path("tests/unit/test_rotor_specified.c")))
+        self.assertTrue(reasons.traces(Path("tests/unit/test_mixer.c")))
+
+    def test_a_test_that_there_is_not(self) -> None:
+        path = Path(self.enterContext(tempfile.TemporaryDirectory())) / "reasons.toml"
+        path.write_text('untraced = [\n    "mixer_equations",\n    "rotor_curves",\n]\n')
+        with self.assertRaisesRegex(
+            ToolError, r"reasons\.toml:1: untraced number 2: there is no tests/unit/test_rotor_cur"
+        ):
+            read_reasons(path)
 
     def test_a_reason_is_needed(self) -> None:
         path = Path(self.enterContext(tempfile.TemporaryDirectory())) / "reasons.toml"

@@ -14,6 +14,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from makefile import make_in
+
 from keel.install.cache import default_cache
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,20 +30,6 @@ class OwnUnit(unittest.TestCase):
         shutil.copytree(ROOT / "examples/own_unit", self.project, ignore=ignored)
         self.source = self.project / "src/battery/monitor.c"
 
-    def make(self, *words: str) -> tuple[int, str]:
-        """Run make in the project, with Keel's rules."""
-        command = ["make", "-f", str(ROOT / "keel.mk"), *words]
-        ended = subprocess.run(
-            command,
-            cwd=self.project,
-            stdout=subprocess.PIPE,
-            check=False,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=900,
-        )
-        return ended.returncode, ended.stdout
-
     def slip(self, old: str, new: str) -> None:
         """An engineer's mistake."""
         text = self.source.read_text(encoding="utf-8")
@@ -49,7 +37,7 @@ class OwnUnit(unittest.TestCase):
         self.source.write_text(text.replace(old, new), encoding="utf-8")
 
     def test_the_example_is_proved_where_it_was_copied_to(self) -> None:
-        status, output = self.make("prove")
+        status, output = make_in(self.project, "prove")
         self.assertEqual(status, 0, output)
         self.assertIn("determined: 2 of 2 functions", output)
         report = json.loads((self.project / "build/prove/report.json").read_text("utf-8"))
@@ -90,7 +78,7 @@ class OwnUnit(unittest.TestCase):
             self.assertIn("No rule to make target 'prove'", self.dry("prove"))
 
     def test_its_help_has_the_names_that_can_be_typed(self) -> None:
-        output = self.make("help")[1]
+        output = make_in(self.project, "help")[1]
         self.assertRegex(output, r"make prove +prove the project \(UNIT=monitor; ARGS=")
         self.assertNotIn("keel-", output)
         command = ["make", "keel-help", f"KEEL={ROOT}"]
@@ -98,10 +86,10 @@ class OwnUnit(unittest.TestCase):
         self.assertRegex(output, r"make keel-prove +prove the project \(KEEL_UNIT=monitor; ")
 
     def test_its_unit_tests_pass_and_notice_a_mistake(self) -> None:
-        status, output = self.make("test")
+        status, output = make_in(self.project, "test")
         self.assertEqual((status, output.splitlines()[-1]), (0, "4 of 4 tests passed"), output)
         self.slip("monitor->alarm = true;", "monitor->alarm = false;")
-        status, output = self.make("test")
+        status, output = make_in(self.project, "test")
         self.assertNotEqual(status, 0)
         self.assertRegex(output, r"FAILED BAT_002_\w+: tests/unit/test_monitor.c:\d+")
 
@@ -127,13 +115,15 @@ class OwnUnit(unittest.TestCase):
 
     def test_a_mistake_fails_the_proof_and_is_explained(self) -> None:
         self.slip("low < BATTERY_MONITOR_SAMPLES", "low <= BATTERY_MONITOR_SAMPLES")
-        status, output = self.make("prove", "UNIT=monitor", "ARGS=--engine cbmc")
+        status, output = make_in(self.project, "prove", "UNIT=monitor", "ARGS=--engine cbmc")
         self.assertEqual(status, 2)  # As make ends, whatever the reason; the program tells it.
         self.assertIn("BAT_002_model: as the model says: REFUTED by a counterexample", output)
         explain = "UNIT=monitor ARGS='--explain battery_monitor_step_harness'"
         command = f"make -f {ROOT}/keel.mk prove {explain}"
         self.assertIn(f"to see why: {command}", output)
-        status, output = self.make("prove", "UNIT=monitor", "ARGS=--explain BAT_002_model")
+        status, output = make_in(
+            self.project, "prove", "UNIT=monitor", "ARGS=--explain BAT_002_model"
+        )
         self.assertNotEqual(status, 0)
         self.assertIn("monitor.low = 6 (before: 5)", output)
         self.assertIn("before: 5", output)
@@ -156,7 +146,7 @@ class OwnUnit(unittest.TestCase):
         self.assertEqual(status("monito"), 2)
 
     def test_its_evidence_has_its_own_requirements_tasks_and_proofs(self) -> None:
-        status, output = self.make("evidence")
+        status, output = make_in(self.project, "evidence")
         self.assertEqual(status, 0, output)
         place = self.project / "build/evidence"
         page = (place / "site/function-battery_monitor_step.html").read_text(encoding="utf-8")
@@ -165,10 +155,10 @@ class OwnUnit(unittest.TestCase):
         index = (place / "index.html").read_text(encoding="utf-8")
         self.assertIn("schedulable: every task meets its deadline", index)
         self.assertIn("constraints kept", index)
-        status, output = self.make("evidence", "VERIFY=build/evidence")
+        status, output = make_in(self.project, "evidence", "VERIFY=build/evidence")
         self.assertEqual(status, 0, output)
         (place / "proofs/part.json").write_text("{}", encoding="utf-8")
-        status, output = self.make("evidence", "VERIFY=build/evidence")
+        status, output = make_in(self.project, "evidence", "VERIFY=build/evidence")
         self.assertNotEqual(status, 0)
         self.assertIn("FAILED proofs/part.json: was altered", output)
 
@@ -178,7 +168,7 @@ class OwnUnit(unittest.TestCase):
         text = path.read_text(encoding="utf-8")
         self.assertEqual(text.count(old), 1)
         path.write_text(text.replace(old, new), encoding="utf-8")
-        status, output = self.make("evidence")
+        status, output = make_in(self.project, "evidence")
         self.assertNotEqual(status, 0, output)
         self.assertFalse((self.project / "build/evidence").exists())
         return output
@@ -197,5 +187,5 @@ class OwnUnit(unittest.TestCase):
 
     def test_a_folder_that_is_no_project_is_refused_in_one_line(self) -> None:
         shutil.rmtree(self.project / "include")
-        output = self.make("prove")[1]
+        output = make_in(self.project, "prove")[1]
         self.assertIn(f"prove: {self.project}: there is no unit, include/LAYER/NAME.h", output)

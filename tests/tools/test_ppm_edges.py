@@ -6,13 +6,12 @@ from __future__ import annotations
 import ctypes
 import random
 import shutil
-import tempfile
 import unittest
 from itertools import groupby
 from pathlib import Path
 from typing import ClassVar
 
-from keel.base.run import output_of
+from shim import library_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -80,26 +79,7 @@ class Edges(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
-        shim.write_text(SHIM)
-        units = [ROOT / f"src/middleware/{unit}.c" for unit in ("ppm", "framing")]
-        output_of(
-            [
-                "gcc",
-                "-std=c99",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                f"-I{ROOT / 'include'}",
-                shim,
-                *units,
-                "-o",
-                built,
-            ]
-        )
-        cls.library = ctypes.CDLL(str(built))
+        cls.library = library_of(cls, SHIM, ["src/middleware/ppm.c", "src/middleware/framing.c"])
 
     def setUp(self) -> None:
         self.random = random.Random(20261128)

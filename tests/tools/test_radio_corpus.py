@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import ctypes
 import shutil
-import tempfile
 import tomllib
 import unittest
 from pathlib import Path
 from typing import Any, ClassVar
 
-from keel.base.run import output_of
+from shim import library_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -94,29 +93,8 @@ class Corpus(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
-        shim.write_text(SHIM)
-        units = [
-            ROOT / f"src/middleware/{unit}.c"
-            for unit in ("sbus", "crsf", "ibus", "ppm", "framing", "crc")
-        ]
-        output_of(
-            [
-                "gcc",
-                "-std=c99",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                f"-I{ROOT / 'include'}",
-                shim,
-                *units,
-                "-o",
-                built,
-            ]
-        )
-        cls.library = ctypes.CDLL(str(built))
+        units = ("sbus", "crsf", "ibus", "ppm", "framing", "crc")
+        cls.library = library_of(cls, SHIM, [f"src/middleware/{unit}.c" for unit in units])
         cls.streams = tomllib.loads(CORPUS.read_text())["stream"]
 
     def call(self, name: str, *values: int) -> int:

@@ -6,12 +6,12 @@ from __future__ import annotations
 import ctypes
 import random
 import shutil
-import tempfile
 import unittest
 from pathlib import Path
 from typing import ClassVar
 
-from keel.base.run import output_of
+from shim import library_of
+
 from keel.flight import device_frames
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -70,25 +70,7 @@ class Frames(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
-        shim.write_text(SHIM)
-        output_of(
-            [
-                "gcc",
-                "-std=c99",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                f"-I{ROOT / 'include'}",
-                shim,
-                ROOT / "src/middleware/sbus.c",
-                "-o",
-                built,
-            ]
-        )
-        cls.library = ctypes.CDLL(str(built))
+        cls.library = library_of(cls, SHIM, ["src/middleware/sbus.c"])
 
     def setUp(self) -> None:
         self.random = random.Random(20261124)

@@ -6,15 +6,14 @@ from __future__ import annotations
 import ctypes
 import importlib
 import shutil
-import sys
-import tempfile
 import unittest
 from io import BytesIO
 from pathlib import Path
 from typing import Any, ClassVar
 
-from keel.base.run import output_of
-from keel.install import Toolchain
+from shim import library_of
+
+from keel.install.packages import provide
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("bsp/devices/ublox.c", "bsp/common/progress.c", "src/middleware/ubx.c")
@@ -57,17 +56,9 @@ class Settings(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        tools = Toolchain()
-        tools.ensure("ubx")
-        sys.path.insert(0, tools.command("ubx-packages")[0])
+        provide("ubx")
         cls.pyubx2 = importlib.import_module("pyubx2")
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
-        shim.write_text(SHIM)
-        flags = ["-std=c99", "-O1", "-shared", "-fPIC", f"-I{ROOT}/include", f"-I{ROOT}/bsp"]
-        output_of(["gcc", *flags, shim, *(ROOT / source for source in SOURCES), "-o", built])
-        cls.library = ctypes.CDLL(str(built))
+        cls.library = library_of(cls, SHIM, SOURCES, ("-Iinclude", "-Ibsp"))
 
     def sent(self, baud: int, period_ms: int) -> bytes:
         """The bytes of one attempt: the line is set, two seconds pass, and 14 steps send."""

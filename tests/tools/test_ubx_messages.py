@@ -7,16 +7,15 @@ import ctypes
 import importlib
 import random
 import shutil
-import sys
-import tempfile
 import unittest
 from io import BytesIO
 from pathlib import Path
 from typing import Any, ClassVar
 
-from keel.base.run import output_of
+from shim import library_of
+
 from keel.flight import device_frames
-from keel.install import Toolchain
+from keel.install.packages import provide
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -78,29 +77,9 @@ class Messages(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        tools = Toolchain()
-        tools.ensure("ubx")
-        sys.path.insert(0, tools.command("ubx-packages")[0])
+        provide("ubx")
         cls.pyubx2 = importlib.import_module("pyubx2")
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        shim, built = Path(folder.name) / "shim.c", Path(folder.name) / "shim.so"
-        shim.write_text(SHIM)
-        output_of(
-            [
-                "gcc",
-                "-std=c99",
-                "-O1",
-                "-shared",
-                "-fPIC",
-                f"-I{ROOT / 'include'}",
-                shim,
-                ROOT / "src/middleware/ubx.c",
-                "-o",
-                built,
-            ]
-        )
-        cls.library = ctypes.CDLL(str(built))
+        cls.library = library_of(cls, SHIM, ["src/middleware/ubx.c"])
         for name in FIELDS:
             getattr(cls.library, name).restype = ctypes.c_longlong
 

@@ -269,7 +269,7 @@ def _pair(objects: tuple[Parameter, ...], structures: Structures) -> bool:
     return one.type == two.type and one.type.endswith("*") and one.base in structures
 
 
-def _bare(node: Node) -> Node:
+def bare(node: Node) -> Node:
     """An expression without parentheses around the whole of it."""
     while node.type == "parenthesized_expression":
         [node] = [one for one in node.named_children if one.type != "comment"]
@@ -278,7 +278,7 @@ def _bare(node: Node) -> Node:
 
 def _parts(node: Node) -> Iterator[Node]:
     """What && joins."""
-    node = _bare(node)
+    node = bare(node)
     sign, *sides = (node.child_by_field_name(name) for name in ("operator", "left", "right"))
     if node.type == "binary_expression" and written(sign) == "&&":
         for side in sides:
@@ -321,7 +321,7 @@ def _both(same: Same, one: Node, two: Node, address: bool) -> Way | None:
 def _way(node: Node, address: bool) -> Way | None:
     """How an expression names a field: the object, then the names and indices; None if it is not
     one, or not its address where that is wanted."""
-    node = _bare(node)
+    node = bare(node)
     if address:
         if node.type == "identifier":
             return (written(node),)

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from keel.audit.comparers import FLOATS, Comparers, Same
+from keel.audit.comparers import FLOATS, Comparers, Same, bare
 from keel.c import source as csource
 from keel.c import syntax
 from keel.c.declarations import Parameter, Signature, Structures, read, signatures
@@ -297,16 +297,9 @@ def _assigned(body: str) -> Iterator[tuple[Node, str, Node | None]]:
         yield node, _root(target), value
 
 
-def _bare(node: Node) -> Node:
-    """An expression without parentheses around the whole of it."""
-    while node.type == "parenthesized_expression":
-        [node] = [one for one in node.named_children if one.type != "comment"]
-    return node
-
-
 def _sides(node: Node, operator: str) -> list[Node]:
     """What an operator stands between; an expression of any other kind by itself."""
-    node = _bare(node)
+    node = bare(node)
     sign, *sides = (node.child_by_field_name(name) for name in ("operator", "left", "right"))
     if node.type != "binary_expression" or written(sign) != operator:
         return [node]
@@ -315,9 +308,9 @@ def _sides(node: Node, operator: str) -> list[Node]:
 
 def _object(argument: str) -> str:
     """What an argument points to, or would if it were not null."""
-    node = _bare(syntax.expression(argument))
+    node = bare(syntax.expression(argument))
     if node.type == "conditional_expression" and written(node.children[-1]) == "NULL":
-        node = _bare(node.children[2])
+        node = bare(node.children[2])
     return written(node).removeprefix("&")
 
 
@@ -328,7 +321,7 @@ def _dense(text: str) -> str:
 def _compares(claim: str, pair: tuple[str, str], by_function: bool) -> str | None:
     """How a claim says that two things are the same: the function's name, "" for ==."""
     wanted = {_dense(text) for text in pair}
-    node = _bare(syntax.expression(claim))
+    node = bare(syntax.expression(claim))
     sides = _sides(node, "==")
     if len(sides) == 2 and not by_function:
         return "" if {_dense(written(side)) for side in sides} == wanted else None
@@ -381,7 +374,7 @@ def claims(body: str, texts: Sequence[str] = ()) -> Sequence[Claim]:
 
 def _unfolded(text: str, texts: Sequence[str]) -> str:
     """What a call of F_does stands for; "" if it is none, or does more than return it."""
-    node = _bare(syntax.expression(text))
+    node = bare(syntax.expression(text))
     for call in csource.calls(node, r"\w+_does"):
         name = written(call.node.children[0])
         for one in texts if call.node == node else ():

@@ -19,6 +19,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from keel.audit.comparers import bare
 from keel.c import source as csource
 from keel.c import syntax
 from keel.c.declarations import Macros, Parameter, Signature, macros, number, signatures
@@ -343,7 +344,7 @@ class _Scene:
 
     def _is_one_of(self, node: Node) -> bool:
         """Whether a value is one of two constants, whichever."""
-        node = _bare(node)
+        node = bare(node)
         if node.type != "conditional_expression":
             return False
         _, *branches = [
@@ -457,20 +458,13 @@ class _Scene:
         return tags if names else {CONSTANT}
 
 
-def _bare(node: Node) -> Node:
-    """An expression without parentheses around the whole of it."""
-    while node.type == "parenthesized_expression":
-        [node] = [one for one in node.named_children if one.type != "comment"]
-    return node
-
-
 def _root(node: Node) -> str:
     return next(map(written, syntax.found(node, "identifier")), "")
 
 
 def _conjuncts(node: Node) -> Iterator[Node]:
     """What && joins in an assumption."""
-    node = _bare(node)
+    node = bare(node)
     sign, *sides = (node.child_by_field_name(name) for name in ("operator", "left", "right"))
     if node.type == "binary_expression" and written(sign) == "&&":
         for side in sides:

@@ -5,14 +5,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from keel.base.errors import ToolError
-
-KINDS = ("waited", "idle", "realtime", "other", "several")
-NO_TASK = ("waited", "idle")
-ONE_TASK = ("realtime", "other")
+from keel.bench.kinds import KINDS, Kind
 
 # Functions whose instructions may be in a dump without being the layer's.
 HARNESS_FUNCTION = re.compile(r"^(bench_\w+|main)(\.\w+)*$")
@@ -59,26 +56,6 @@ def read_dumps(lines: Iterable[str]) -> Iterator[Dump]:
         yield dump
 
 
-@dataclass
-class Kind:
-    """All passes of one kind. The longest is of those that have a dump of their own."""
-
-    passes: int = 0
-    instructions: int = 0
-    longest: int = 0
-    functions: Counter[str] = field(default_factory=Counter)
-
-    @property
-    def mean(self) -> float:
-        return self.instructions / self.passes if self.passes else 0.0
-
-    def add(self, other: Kind) -> None:
-        self.passes += other.passes
-        self.instructions += other.instructions
-        self.longest = max(self.longest, other.longest)
-        self.functions += other.functions
-
-
 def kind_of(dump: Dump, layer: frozenset[str]) -> Kind:
     """The layer's part of a dump."""
     own = Counter({name: cost for name, cost in dump.own.items() if name in layer})
@@ -105,11 +82,3 @@ def sum_dumps(
             refuse_strangers(dump, layer)
             kinds[dump.kind].add(kind_of(dump, layer))
     return kinds
-
-
-def merged(kinds: Mapping[str, Kind], names: Sequence[str]) -> Kind:
-    """Several kinds taken together."""
-    total = Kind()
-    for name in names:
-        total.add(kinds[name])
-    return total

@@ -17,12 +17,12 @@ and other (exactly one task, of that kind), several (more than one task).
 
 Code size and RAM are those of the Cortex-M7 build.
 
-The steps of the layers above (STEPS, bench/bench_steps.c) are counted the same way. In their
-Cortex-M7 objects no function that a step reaches may have an instruction in double precision or
-call anything but the kernel: that is an error, not a missed goal.
+The steps of the layers above (bench/bench_steps.c) are counted the same way. In their Cortex-M7
+objects no function that a step reaches may have an instruction in double precision or call anything
+but the kernel: that is an error, not a missed goal.
 
 What the same passes and steps take on the Cortex-M7 is counted on an emulated one, and held against
-a budget (tools/keel/bench/emulated.py).
+a budget. bench/budget.toml says which figures there are, with their goals and budgets.
 
 Exit status: 0 when everything was measured, 1 when something is above its budget (or, with --check,
 a goal is missed), 2 when something could not be measured.
@@ -42,7 +42,9 @@ from keel.base.run import output_of
 from keel.base.source import write_report
 from keel.bench import emulated, tables
 from keel.bench.assembly import read_code, refuse_slow_code
-from keel.bench.callgrind import KINDS, NO_TASK, ONE_TASK, Kind, merged, read_dumps, sum_dumps
+from keel.bench.budget import Budget, accept, read_budget
+from keel.bench.callgrind import read_dumps, sum_dumps
+from keel.bench.kinds import KINDS, NO_TASK, ONE_TASK, Kind, Kinds, all_of, merged, twice
 from keel.bench.tables import FOR_SCALE, Goal, Target, verdict
 from keel.install import TARGET_FLAGS, Toolchain
 
@@ -61,35 +63,6 @@ GOAL_SET = 21
 # What a task takes of the scheduler's memory is the difference of these two, the first as shipped.
 CAPACITIES = (32, 64)
 
-# Steps by their labels: what they are, the function, and the goal on the Cortex-M7.
-STEPS: dict[str, tuple[str, str, int]] = {
-    "filter": ("filter", "keel_filter_step", 30),
-    "pid": ("PID", "keel_pid_step", 110),
-    "reference": ("reference generator, four sticks", "keel_reference_step", 150),
-    "mixer": ("mixer, 4 motors, all fits", "keel_mixer_step", 200),
-    "mixer_worst": ("mixer, 4 motors, all gives way", "keel_mixer_step", 200),
-    "mode": ("mode, in flight", "keel_mode_step", 250),
-    "mode_worst": ("mode, all facts waiting", "keel_mode_step", 250),
-    "attitude": ("attitude, all sensors in each", "keel_attitude_step", 600),
-    "altitude": ("altitude, a pressure in each", "keel_altitude_step", 250),
-    "position": ("position, a fix in each", "keel_position_step", 500),
-    "cascade": ("cascade, all four stages", "keel_cascade_rate_step", 3000),
-    "battery": ("battery, two modules", "keel_battery_step", 400),
-    "calibration": ("calibration at rest", "keel_calibration_rest_step", 250),
-    "sbus": ("SBUS, a byte of right frames", "keel_sbus_take", 100),
-    "sbus_worst": ("SBUS, a byte of nothing but headers", "keel_sbus_take", 300),
-    "ms5611": ("MS5611, a reading in frost", "keel_ms5611_compensate", 300),
-    "ubx": ("UBX, a byte of right messages", "keel_ubx_take", 200),
-    "mavlink": ("MAVLink, a byte of right frames", "keel_mavlink_take", 200),
-    "signing": ("signatures, a right frame", "keel_signing_accepts", 1500),
-    "log_ring": ("log ring, a record of 36 bytes", "keel_log_ring_write", 1200),
-    "ulog": ("ULog, 36 bytes of data", "keel_ulog_add", 1000),
-    "crsf": ("CRSF, a byte of right frames", "keel_crsf_take", 200),
-    "ibus": ("IBUS, a byte of right frames", "keel_ibus_take", 200),
-    "ppm": ("PPM, an edge of right frames", "keel_ppm_take", 200),
-    "imu": ("virtual IMU, 3 x 6, all agree", "keel_virtual_imu_step", 900),
-    "imu_worst": ("virtual IMU, 3 x 6, one outvoted", "keel_virtual_imu_step", 900),
-}
 STEP_HARNESS = "bench/bench_steps.c"
 
 
@@ -99,6 +72,16 @@ class Host:
 
     program: Path
     layer: frozenset[str]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What the host has counted, and what the Cortex-M7's objects have."""
+
+    sets: dict[int, Kinds]
+    target: Target
+    steps: Kinds
+    goals: list[Goal]
 
 
 def functions_of(nm: Sequence[str], objects: Sequence[Path]) -> frozenset[str]:
@@ -119,7 +102,7 @@ def build_host(
 
 def callgrind(
     tools: Toolchain, host: Host, name: str, arguments: Sequence[str], kinds: Iterable[str]
-) -> dict[str, Kind]:
+) -> Kinds:
     """One run of a program under callgrind."""
     output = BUILD / f"callgrind-{name}.out"
     output.unlink(missing_ok=True)
@@ -131,20 +114,16 @@ def callgrind(
         return sum_dumps(read_dumps(lines), host.layer, kinds)
 
 
-def count(tools: Toolchain, host: Host, tasks: int) -> dict[str, Kind]:
+def count(tools: Toolchain, host: Host, tasks: int) -> Kinds:
     """One simulation under callgrind."""
     return callgrind(tools, host, str(tasks), [str(tasks)], KINDS)
 
 
-def measure_set(tools: Toolchain, host: Host, tasks: int) -> dict[str, Kind]:
-    """Measured twice, to the instruction."""
-    first, second = count(tools, host, tasks), count(tools, host, tasks)
-    if first != second:
-        raise ToolError(f"two runs with {tasks} tasks differ")
-    empty = [name for name in NO_TASK if not first[name].passes]
-    if empty or not merged(first, ONE_TASK).passes:
-        raise ToolError(f"no pass was measured of the kind {', '.join(empty) or 'one task'}")
-    return first
+def measure_set(tools: Toolchain, host: Host, tasks: int) -> Kinds:
+    """Measured twice, to the instruction; not each set has both kinds of passes with one task."""
+    kinds = twice(lambda: count(tools, host, tasks), f"with {tasks} tasks")
+    all_of({**kinds, "one task": merged(kinds, ONE_TASK)}, (*NO_TASK, "one task"))
+    return kinds
 
 
 def read_sizes(text: str) -> dict[str, tuple[int, int]]:
@@ -193,33 +172,34 @@ def measure_target(tools: Toolchain) -> Target:
     )
 
 
-def check_target_steps(tools: Toolchain) -> None:
+def check_target_steps(tools: Toolchain, budget: Budget) -> None:
     """The Cortex-M7 objects of the steps."""
     extra = ["-Wdouble-promotion", "-Werror"]
     objects = target_build(tools, "target-steps", extra).objects(["src"])
     dump = [*tools.command("arm-none-eabi-objdump"), "-dr"]
     code = read_code(output_of([*dump, *map(str, objects)]))
-    for _, step, _ in STEPS.values():
-        refuse_slow_code(code, step)
+    for figure in budget.steps.values():
+        refuse_slow_code(code, figure.step or "")
 
 
-def measure_steps(tools: Toolchain) -> dict[str, Kind]:
+def measure_steps(tools: Toolchain, budget: Budget) -> Kinds:
     """Instructions of each step in a host build, counted twice."""
     host = build_host(tools, "host-steps", "src", [STEP_HARNESS])
-    first, second = (callgrind(tools, host, "steps", [], STEPS) for _ in range(2))
-    if first != second:
-        raise ToolError("two runs of the steps differ")
-    for name, kind in first.items():
-        if not kind.passes:
-            raise ToolError(f"no step of {name} was measured")
-    return first
+    steps = twice(lambda: callgrind(tools, host, "steps", [], budget.steps), "of the steps")
+    all_of(steps, [*budget.steps])
+    return steps
 
 
-def goals_of(sets: Mapping[int, Mapping[str, Kind]], target: Target) -> list[Goal]:
-    kinds = sets[GOAL_SET]
+def together(kinds: Mapping[str, Kind]) -> Kinds:
+    """What a host build has of the figures of passes."""
+    return {"no_task": merged(kinds, NO_TASK), "one_task": merged(kinds, ONE_TASK)}
+
+
+def goals_of(kinds: Mapping[str, Kind], target: Target, budget: Budget) -> list[Goal]:
+    means = {name: kind.mean for name, kind in together(kinds).items()}
     return [
-        Goal("instructions, no task", merged(kinds, NO_TASK).mean, 25),
-        Goal(f"instructions, one task of {GOAL_SET}", merged(kinds, ONE_TASK).mean, 200),
+        Goal("instructions, no task", means["no_task"], budget.goal("no_task")),
+        Goal(f"instructions, one task of {GOAL_SET}", means["one_task"], budget.goal("one_task")),
         Goal("text in bytes", target.total, 2048),
         Goal("RAM per task in bytes", target.per_task, 40),
     ]
@@ -237,35 +217,48 @@ def kind_report(kind: Kind) -> dict[str, object]:
 
 
 def set_report(kinds: Mapping[str, Kind]) -> dict[str, object]:
-    together = {"no_task": merged(kinds, NO_TASK), "one_task": merged(kinds, ONE_TASK)}
-    both = {**kinds, **together}
+    both = {**kinds, **together(kinds)}
     return {name: kind_report(kind) for name, kind in both.items() if kind.passes}
 
 
-def report_of(
-    tools: Toolchain,
-    sets: Mapping[int, Mapping[str, Kind]],
-    target: Target,
-    steps: Mapping[str, Kind],
-) -> dict[str, object]:
+def host_report(tools: Toolchain, host: Measured) -> dict[str, object]:
     versions = {name: found.version for name, found in tools.versions("bench", "test").items()}
     used = ("gcc", "valgrind", "binutils", "arm-none-eabi-gcc")
+    target = host.target
     return {
         "schema": 1,
         "tools": {name: versions[name] for name in used if name in versions},
         "host_flags": list(HOST_FLAGS),
         "target_flags": list(ARM_FLAGS),
-        "capacity": {str(tasks): SETS[tasks] for tasks in sets},
-        "sets": {str(tasks): set_report(kinds) for tasks, kinds in sets.items()},
-        "steps": {name: kind_report(kind) for name, kind in steps.items()},
+        "capacity": {str(tasks): SETS[tasks] for tasks in host.sets},
+        "sets": {str(tasks): set_report(kinds) for tasks, kinds in host.sets.items()},
+        "steps": {name: kind_report(kind) for name, kind in host.steps.items()},
         "for_scale": {name: list(pair) for name, pair in FOR_SCALE.items()},
         "target": {**asdict(target), "total_text": target.total, "per_task": target.per_task},
-        "goals": [{**asdict(goal), "met": goal.met} for goal in goals_of(sets, target)],
+        "goals": [{**asdict(goal), "met": goal.met} for goal in host.goals],
     }
 
 
-def measure(tools: Toolchain) -> list[Goal]:
-    """Measure, report, print."""
+def target_report(tools: Toolchain, counted: Kinds, budget: Budget) -> dict[str, object]:
+    return {
+        "emulator": tools.versions("target")["qemu"].version,
+        "figures": {
+            name: {
+                "passes": kind.passes,
+                "instructions": kind.instructions,
+                "mean": round(kind.mean, 2),
+                "longest": kind.longest,
+                "budget": budget.figures[name].budget,
+                "goal": budget.figures[name].goal,
+            }
+            for name, kind in counted.items()
+        },
+        "over_budget": budget.exceeded(counted),
+    }
+
+
+def measure_host(tools: Toolchain, budget: Budget) -> Measured:
+    """What callgrind counts, and what the Cortex-M7's objects have."""
     hosts = {
         capacity: build_host(
             tools, f"host-{capacity}", LAYER, HARNESS, [f"-DKEEL_QUEUE_CAPACITY={capacity}u"]
@@ -274,20 +267,34 @@ def measure(tools: Toolchain) -> list[Goal]:
     }
     sets = {tasks: measure_set(tools, hosts[SETS[tasks]], tasks) for tasks in SETS}
     target = measure_target(tools)
-    check_target_steps(tools)
-    steps = measure_steps(tools)
-    goals = goals_of(sets, target)
-    # No verdict yet: the budgets are of the figures that benchmark.emulated adds.
-    write_report(REPORT, report_of(tools, sets, target, steps), good=False)
+    check_target_steps(tools, budget)
+    steps = measure_steps(tools, budget)
+    return Measured(sets, target, steps, goals_of(sets[GOAL_SET], target, budget))
+
+
+def print_host(host: Measured, budget: Budget) -> None:
     print("Instructions of a pass, host build, scheduler code only")
-    for tasks, kinds in sets.items():
+    for tasks, kinds in host.sets.items():
         tables.print_set(tasks, SETS[tasks], kinds)
     tables.print_scale()
-    tables.print_hot(GOAL_SET, sets[GOAL_SET])
-    tables.print_target(target, CAPACITIES[0])
-    tables.print_steps(STEPS, steps)
-    tables.print_goals(goals)
-    return goals
+    tables.print_hot(GOAL_SET, host.sets[GOAL_SET])
+    tables.print_target(host.target, CAPACITIES[0])
+    tables.print_steps(budget, host.steps)
+    tables.print_goals(host.goals)
+
+
+def judge(tools: Toolchain, host: Measured, counted: Kinds, check: bool) -> int:
+    """Write the report, print the figures of the Cortex-M7 and the verdict; the exit status."""
+    budget = read_budget()
+    over = budget.exceeded(counted)
+    report = {**host_report(tools, host), "cortex_m7": target_report(tools, counted, budget)}
+    write_report(REPORT, report, good=not over)
+    tables.print_figures(budget, {**together(host.sets[GOAL_SET]), **host.steps}, counted)
+    if over:
+        print(f"bench: over the budget of bench/budget.toml: {'; '.join(over)}.")
+        return 1
+    print(verdict(host.goals))
+    return 1 if check and not all(goal.met for goal in host.goals) else 0
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -299,13 +306,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     def work() -> int:
         REPORT.unlink(missing_ok=True)
+        budget = read_budget()
         tools = Toolchain()
-        tools.ensure("bench")
-        goals = measure(tools)
-        if over := emulated.add(tools, REPORT, options.accept):
-            print(f"bench: over the budget of bench/budget.toml: {'; '.join(over)}.")
-            return 1
-        print(verdict(goals))
-        return 1 if options.check and not all(goal.met for goal in goals) else 0
+        tools.ensure("bench", "target")
+        host = measure_host(tools, budget)
+        print_host(host, budget)
+        counted = emulated.measure(tools, budget)
+        if options.accept:
+            accept(counted)
+        return judge(tools, host, counted, options.check)
 
     return program("bench", work)

@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from keel.bench.callgrind import NO_TASK, ONE_TASK, Kind, merged
+from keel.bench.budget import Budget
+from keel.bench.kinds import NO_TASK, ONE_TASK, Kind, merged
 
 # The same set and the same method with the schedulers that flight firmware flies: instructions
 # of a pass that runs no task, and of one that runs one.
@@ -102,9 +103,20 @@ def verdict(goals: Sequence[Goal]) -> str:
     return f"bench: {len(missed)} of {len(goals)} goals missed: {'; '.join(missed)}."
 
 
-def print_steps(about: Mapping[str, tuple[str, str, int]], steps: Mapping[str, Kind]) -> None:
+def print_steps(budget: Budget, steps: Mapping[str, Kind]) -> None:
     print("\nInstructions of a step, host build    mean   goal on the Cortex-M7")
     for name, kind in steps.items():
-        label, _, goal = about[name]
-        print(f"  {label:34}{kind.mean:7.1f}{goal:7}")
+        print(f"  {budget.figures[name].about:34}{kind.mean:7.1f}{budget.goal(name):7}")
     print("  On the Cortex-M7 none of them has double precision or calls a library.")
+
+
+def print_figures(budget: Budget, host: Mapping[str, Kind], counted: Mapping[str, Kind]) -> None:
+    print("\nInstructions, mean (longest)         host  Cortex-M7             budget   goal")
+    for name, figure in budget.figures.items():
+        shown = f"{host[name].mean:9.1f}" if name in host else f"{'-':>9}"
+        kind, goal = counted[name], figure.goal
+        met = "-" if goal is None else f"{goal} {'met' if kind.mean <= goal else 'MISSED'}"
+        print(
+            f"  {figure.about:30}{shown}{kind.mean:11.1f} ({kind.longest:5})"
+            f"{figure.budget:11.1f}   {met}"
+        )

@@ -33,7 +33,6 @@ RAL_INSTANCE = re.compile(
     r"^pub mod (\w+) \{.*?addr: (0x[0-9a-fA-F]+),.*?reset: ResetValues = ResetValues \{(.*?)\};",
     re.MULTILINE | re.DOTALL,
 )
-RAL_PERIPHERAL = re.compile(r"::peripherals::(\w+)::\{?(?:.*?)RegisterBlock")
 RAL_FIELD = re.compile(
     r"pub mod (\w+) \{\s*/// Offset.*?const offset: u32 = (\d+);.*?const mask: u32 = (\w+) <<",
     re.DOTALL,

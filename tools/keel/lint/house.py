@@ -5,11 +5,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import PurePosixPath
+from functools import cache
+from pathlib import Path, PurePosixPath
 
+from keel.base.errors import ROOT
+from keel.config import Mistake, Table, read_toml
 from keel.lint.models import check_models
 from keel.lint.prose import check_prose
 from keel.lint.texts import Finding, Text
+from keel.lint.unit_tables import check_unit_tables
 
 LINE_LIMIT = 100
 # In two parts, so that this file does not break the rules that it checks.
@@ -89,19 +93,39 @@ def check_guard(text: Text) -> Iterator[Finding]:
         yield Finding(text.path, line, f"the include guard is not {guard}")
 
 
-# The layers, and within the RTOS layer its units, from the bottom to the top. A unit includes
-# units below it only; units of one rank do not know each other.
-LAYERS = ("rtos", "middleware", "flight")
-RTOS_UNITS = (
-    ("clock", "priority", "stats", "load", "deviation"),
-    ("task",),
-    ("queue",),
-    ("admission", "decision"),
-    ("scheduler_state",),
-    ("pass", "spread", "lateness"),
-    ("scheduler",),
-)
-RTOS_RANK = {name: rank for rank, names in enumerate(RTOS_UNITS) for name in names}
+ORDER = "specs/layers.toml"
+
+
+class Order(Table):
+    """The layers, and the units of the RTOS layer by their ranks, from the bottom to the top."""
+
+    layers: list[str]
+    rtos: list[list[str]]
+
+    def rank(self, unit: str) -> int | None:
+        """How high a unit of the RTOS layer stands."""
+        return next((rank for rank, units in enumerate(self.rtos) if unit in units), None)
+
+
+def misplaced(order: Order, root: Path = ROOT) -> Iterator[Mistake]:
+    """Units without a header, and those that stand twice."""
+    headers = {path.stem for path in root.glob("include/keel/**/rtos/*.h")}
+    seen: set[str] = set()
+    for rank, units in enumerate(order.rtos):
+        for unit in units:
+            if unit not in headers:
+                yield ("rtos", rank), f"there is no header of {unit}"
+            if unit in seen:
+                yield ("rtos", rank), f"{unit} stands twice"
+            seen.add(unit)
+
+
+@cache
+def read_order(path: Path = ROOT / ORDER) -> Order:
+    """Read and check the file."""
+    return read_toml(path, Order, misplaced)
+
+
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 # Contracts, and what no user calls. A source includes them, a header for users does not.
 INTERNAL = "keel/internal/"
@@ -127,16 +151,19 @@ def include_reason(path: str, quoted: bool, header: str) -> str:
         return f"{header} is not for users"
     layer, unit = unit_of(path)
     other_layer, other_unit = unit_of(header)
-    if not header.startswith("keel/") or layer not in LAYERS or other_layer not in LAYERS:
+    order = read_order()
+    layers = order.layers
+    if not header.startswith("keel/") or layer not in layers or other_layer not in layers:
         return f"{header} belongs to no layer"
-    if LAYERS.index(other_layer) > LAYERS.index(layer):
+    if layers.index(other_layer) > layers.index(layer):
         return f"{layer} includes {other_layer}, which stands above it"
     own = unit == other_unit and (path.endswith(".c") or INTERNAL in path)
     if layer != "rtos" or own:
         return ""
-    if unit not in RTOS_RANK or other_unit not in RTOS_RANK:
-        return f"{unit} or {other_unit} has no place in the order of units (keel/lint/house.py)"
-    if RTOS_RANK[other_unit] >= RTOS_RANK[unit]:
+    rank, other_rank = order.rank(unit), order.rank(other_unit)
+    if rank is None or other_rank is None:
+        return f"{unit} or {other_unit} has no place in the order of units ({ORDER})"
+    if other_rank >= rank:
         return f"{unit} includes {other_unit}, which does not stand below it"
     return ""
 
@@ -199,5 +226,6 @@ def check_house(texts: Sequence[Text]) -> Iterator[Finding]:
         for check in HOUSE_CHECKS:
             yield from check(text)
     yield from check_reached(texts)
-    yield from check_models(texts, LAYERS)
+    yield from check_models(texts, read_order().layers)
     yield from check_prose(texts)
+    yield from check_unit_tables(texts)

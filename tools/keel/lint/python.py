@@ -24,7 +24,6 @@ PLACES = ("tools", "tests")
 NOT_LAID_OUT = re.compile(r"^(.+?):\d+:\d+: unformatted", re.MULTILINE)
 # As import-linter tells a chain: the importer, what it imports, and the line.
 CHAIN = re.compile(r"^-?\s*(keel[\w.]*) -> (keel[\w.]*) \(l\.(\d+)", re.MULTILINE)
-CONTRACT_BROKEN = 1
 
 
 def ruff(tools: Toolchain) -> list[str]:

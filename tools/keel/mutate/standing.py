@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from keel.base.errors import ToolError
+from keel.c import source as csource
 from keel.c.project import Unit, find_units
 from keel.install import Found
 from keel.mutate import records as mutant_records
@@ -85,6 +86,19 @@ def accepted(unit: Unit, record: Record) -> list[Survivor]:
     return found
 
 
+def strays(unit: Unit) -> Iterator[str]:
+    """The entries about mutants of lines that the unit has no more."""
+    sources = [csource.essence(path.read_text(encoding="utf-8")) for path in unit.own_files]
+    text = " ".join(" ".join(sources).split())
+    place = f"proofs/{unit.name}/equivalent.toml"
+    for number, (function, original, _, _) in enumerate(
+        read_equivalent(unit.folder / "equivalent.toml"), 1
+    ):
+        if original not in text:
+            gone = f"{function} has no line `{original}` any more, remove it"
+            yield f"{place}: entry {number}: {gone}"
+
+
 def standings(
     root: Path, units: Iterable[Unit], tools: Mapping[str, Found], problems: list[str]
 ) -> Iterator[Standing]:
@@ -105,6 +119,10 @@ def standings(
         if unit.name not in proved:
             continue
         record, stale, survivors = results.unit.get(unit.name), [], []
+        try:
+            problems += strays(unit)
+        except ToolError as error:
+            problems.append(str(error))
         if record:
             now = mutant_records.origin(unit, harnesses, tools, record.killers)
             then = results.made_of(unit.name)

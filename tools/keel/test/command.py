@@ -51,7 +51,7 @@ from keel.test.outcomes import (
     reference_outcome,
     unity_outcome,
 )
-from keel.test.sources import KERNEL, MODEL_SOURCES, SMALL
+from keel.test.sources import KERNEL, SMALL, with_code
 from keel.test.suites import Suite
 
 BUILD = Path("build/test")
@@ -71,7 +71,9 @@ DRIVERS = ("bsp/common/*.c", "bsp/devices/*.c", "bsp/stm32f767/*.c")
 # What only this suite has: drivers of a file system that is fetched, and that file system.
 FATFS_SUITE, FATFS_DRIVERS = "bsp/black_box", "bsp/fatfs"
 
-# The property test runs with the queue's own capacity, and with one that it often fills.
+# The property test, with its model and what drives both, runs with the queue's own capacity, and
+# with one that it often fills.
+PROPERTIES = "tests/property/test_scheduler.c"
 CAPACITIES: dict[str, tuple[int, list[str]]] = {
     "default": (1_000_000, []),
     "small": (1_000_000, [SMALL]),
@@ -171,7 +173,7 @@ def reference_suite(builds: HostBuilds, name: str, source: str) -> Outcome:
 def property_suite(builds: HostBuilds, name: str, size: str) -> Outcome:
     """The scheduler against its model, a given number of random operations."""
     steps, extra = CAPACITIES[size]
-    sources = [*KERNEL, *MODEL_SOURCES, "tests/property/test_scheduler.c"]
+    sources = [*KERNEL, *with_code(PROPERTIES)]
     ended = run([builds.link(name, builds.objects(sources, extra)), "--steps", str(steps)])
     # All of it: the seed, and the shortest sequence that fails.
     return program_outcome(name, ended, ended.output.strip())

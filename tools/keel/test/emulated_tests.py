@@ -259,16 +259,20 @@ def radio_suite(board: EmulatedBoard, name: str) -> Outcome:
 # --- The same results as the executable specification --------------------------------------------
 
 DRIVER = "tests/target/differential.c"
-UNITS = ("queue", "priority", "voter", "filter", "pid", "reference")
+UNIT = re.compile(r'\{"(\w+)", vector_\w+\}')  # In the driver's table.
 VECTORS = 100_000  # of each unit
 BLOCKS = 50
 HOST_FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Iinclude", "-Ibsp")
 # The model of MAVLink takes its check from the kernel, as both are proved to use it alike.
 HOST_SOURCES = ("tests/target/host_console.c", "bsp/console.c", "src/middleware/crc.c")
 MODELS = "specs/model"
-CALL = re.compile(rf"\bkeel_((?:{'|'.join(UNITS)})_\w+)\(")
 BLOCK = re.compile(r"^(\w+) block (\d+) (0x\w+)$", re.MULTILINE)
 VECTOR = re.compile(r"^\w+ vector (\d+) (0x\w+)$", re.MULTILINE)
+
+
+def units_of(board: EmulatedBoard) -> list[str]:
+    """The units of the driver's table, by their numbers."""
+    return UNIT.findall(read_text(board.root / DRIVER))
 
 
 def digests(output: str) -> dict[tuple[str, int], str]:
@@ -292,7 +296,8 @@ def run_model(board: EmulatedBoard, defines: Sequence[str] = ()) -> str:
     kernel itself is not linked, but for its checks of bytes."""
     folder = board.root / board.folder / "host"
     build = Build(board.tools, "gcc", [*HOST_FLAGS, *defines], folder, board.root)
-    called = sorted(set(CALL.findall(read_text(board.root / DRIVER))))
+    call = re.compile(rf"\bkeel_((?:{'|'.join(units_of(board))})_\w+)\(")
+    called = sorted(set(call.findall(read_text(board.root / DRIVER))))
     driver = build.object(DRIVER, [f"-Dkeel_{name}=model_{name}" for name in called])
     program = build.link("differential", [*build.objects([MODELS, *HOST_SOURCES]), driver], ["-lm"])
     ended = run([program], LONG_TIMEOUT_S)
@@ -310,7 +315,7 @@ def run_target(board: EmulatedBoard, defines: Sequence[str] = ()) -> Ended:
 
 def differing_vector(board: EmulatedBoard, unit: str, block: int) -> str:
     """The first vector of a block on which the two differ, with both digests."""
-    defines = [f"-DDETAIL_UNIT={UNITS.index(unit)}u", f"-DDETAIL_BLOCK={block}u"]
+    defines = [f"-DDETAIL_UNIT={units_of(board).index(unit)}u", f"-DDETAIL_BLOCK={block}u"]
     model = VECTOR.findall(run_model(board, defines))
     target = VECTOR.findall(run_target(board, defines).output)
     for ours, theirs in zip(model, target, strict=False):
@@ -325,11 +330,12 @@ def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
     ended = run_target(board)
     target = digests(ended.output)
     outcome = Outcome()
-    for unit in UNITS:
+    units = units_of(board)
+    for unit in units:
         block = first_difference(model, target, unit)
         what = "" if block is None else differing_vector(board, unit, block)
         outcome.add(f"{name}/{unit}", f"{name}/{unit}: {what}" if what else "")
-    counted = f"all vectors {len(UNITS) * VECTORS} " in ended.output
+    counted = f"all vectors {len(units) * VECTORS} " in ended.output
     if ended.status != 0 or ended.timed_out or not counted:
         outcome.add(name, f"{name}: {ended.how}\n{ended.evidence}")
     return outcome
@@ -337,34 +343,15 @@ def differential_suite(board: EmulatedBoard, name: str) -> Outcome:
 
 # --- All of them ---------------------------------------------------------------------------------
 
-# In seconds, alone; of the others none takes two. They begin, so that none is left at the end.
-LONG_S = {
-    "demo": 40.0,
-    "copter": 20.0,
-    "differential": 20.0,
-    "unit/specified": 10.0,
-    "unit/mixer_specified": 10.0,
-    "unit/mode_specified": 10.0,
-    "unit/attitude_specified": 10.0,
-    "unit/attitude_motion": 5.0,
-    "unit/axis_specified": 5.0,
-    "unit/position_specified": 5.0,
-    "unit/altitude_specified": 5.0,
-    "unit/battery_specified": 5.0,
-    "unit/calibration_specified": 5.0,
-    "unit/cascade_specified": 10.0,
-    "unit/cascade_motion": 5.0,
-    "unit/sbus_specified": 5.0,
-    "unit/mavlink_specified": 10.0,
-    "unit/ms5611_specified": 5.0,
-    "unit/log_ring_specified": 5.0,
-    "unit/ulog_specified": 5.0,
-    "unit/ubx_specified": 5.0,
-    "unit/crsf_specified": 5.0,
-    "unit/ibus_specified": 5.0,
-    "unit/ppm_specified": 5.0,
-    "unit/signing_specified": 5.0,
-}
+# In seconds, alone: applications, and tests of many random steps; of the others none takes two.
+# They begin, so that none is left at the end.
+LONG_S = {"demo": 40.0, "copter": 20.0, "differential": 20.0}
+MANY_STEPS, MANY_STEPS_S = ("specified", "_motion"), 10.0
+
+
+def seconds_of(name: str) -> float:
+    """How long a suite takes."""
+    return LONG_S.get(name, MANY_STEPS_S if name.endswith(MANY_STEPS) else 0.0)
 
 
 def all_suites(board: EmulatedBoard) -> list[Suite]:
@@ -381,7 +368,7 @@ def all_suites(board: EmulatedBoard) -> list[Suite]:
     suites.append(Suite("demo", (), partial(demo_suite, board, "demo")))
     suites.append(Suite("copter", (), partial(copter_suite, board, "copter")))
     suites.append(Suite("radio", (), partial(radio_suite, board, "radio")))
-    return [replace(suite, seconds=LONG_S.get(suite.name, 0.0)) for suite in suites]
+    return [replace(suite, seconds=seconds_of(suite.name)) for suite in suites]
 
 
 def facts_of(board: EmulatedBoard, words: str) -> dict[str, object]:

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fuzzes by libFuzzer: the kernel against its models, decoders against those of others, too."""
+"""Fuzzes by libFuzzer: the kernel against its models, decoders against those of others, too.
+
+Each tests/fuzz/fuzz_NAME.c is a target; what it includes says which models it is linked with, and
+whether somebody else's decoder judges it.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -15,26 +18,11 @@ from keel.base.run import run
 from keel.install import Toolchain
 from keel.test import oracles
 from keel.test.outcomes import Outcome, program_outcome
-from keel.test.sources import KERNEL, MODEL_SOURCES, SMALL
+from keel.test.sources import KERNEL, SMALL, with_code
 from keel.test.suites import Suite
 
 BUILD = Path("build/fuzz")
 
-# What each target compares the kernel with, as C that it is linked with.
-TARGETS: dict[str, list[str]] = {
-    "scheduler": MODEL_SOURCES,
-    **{
-        unit: [f"specs/model/{name}.c" for name in (unit, *parts)]
-        for unit, parts in {
-            "crsf": ("crsf_parts", "framing", "framing_parts", "crc"),
-            "ibus": ("framing", "framing_parts"),
-            "mavlink": ("mavlink_drop", "mavlink_gap", "crc"),
-            "ppm": ("framing",),
-            "sbus": (),
-            "ubx": (),
-        }.items()
-    },
-}
 FINDING = re.compile(
     r"^.*(?:DIFFER|runtime error:|ERROR: AddressSanitizer|Test unit written to).*$", re.MULTILINE
 )
@@ -69,18 +57,18 @@ class Fuzzing:
         return max(self.seconds, self.runs / 1000) + 120.0
 
 
-def fuzz_program(tools: Toolchain, name: str, model: Sequence[str], fuzzer: Sequence[str]) -> Path:
-    """Build a target: tests/fuzz/NAME.c with the kernel and what it is compared with."""
+def fuzz_program(tools: Toolchain, name: str, fuzzer: list[str]) -> Path:
+    """Build a target: its file with the kernel and what that is compared with."""
     flags = ["-std=c99", "-g", "-Iinclude", SMALL, *fuzzer]
     link = [flag for flag in fuzzer if flag.startswith("-f")]
     build = Build(tools, "clang-19", flags, ROOT / BUILD / "built", ROOT, link)
-    objects = build.objects([*KERNEL, *model, f"tests/fuzz/fuzz_{name}.c"])
+    objects = build.objects([*KERNEL, *with_code(oracles.source_of(name))])
     return build.link(name, [*objects, *oracles.of(tools, build, name)], ["-lm"])
 
 
 def fuzz_suite(tools: Toolchain, fuzzing: Fuzzing, name: str) -> Outcome:
     """Let libFuzzer look for bytes on which the kernel and what it is compared with differ."""
-    program = fuzz_program(tools, name, TARGETS[name], fuzzing.sanitizers)
+    program = fuzz_program(tools, name, fuzzing.sanitizers)
     folder = BUILD / name  # The corpus stays there, and helps the next run.
     (ROOT / folder / "corpus").mkdir(parents=True, exist_ok=True)
     options = [*fuzzing.options, "-timeout=10", "-print_final_stats=1"]
@@ -93,10 +81,11 @@ def fuzz_suite(tools: Toolchain, fuzzing: Fuzzing, name: str) -> Outcome:
     return program_outcome(name, ended, "\n".join([*told, again]))
 
 
-def fuzz_suites(tools: Toolchain, fuzzing: Fuzzing) -> list[Suite]:
+def fuzz_suites(tools: Toolchain, fuzzing: Fuzzing, root: Path = ROOT) -> list[Suite]:
     """One for each target; when executions are counted, for each that somebody else judges."""
+    judges = {name: oracles.groups(name, root) for name in oracles.targets(root)}
     return [
-        Suite(name, ("fuzz", *oracles.groups(name)), partial(fuzz_suite, tools, fuzzing, name))
-        for name in TARGETS
-        if oracles.groups(name) or not fuzzing.runs
+        Suite(name, ("fuzz", *groups), partial(fuzz_suite, tools, fuzzing, name))
+        for name, groups in judges.items()
+        if groups or not fuzzing.runs
     ]

@@ -19,8 +19,8 @@ What no test can show stands in specs/object_coverage.toml:
     instructions = 2              how many of that line it is about; 1 unless set
     reason = "why it cannot be"
 
-An entry that fits no gap, or another number of them, is an error. build/coverage-target/report.json
-holds all of it.
+An entry that fits no gap, or another number of them, is an error. `untraced` are tests with so many
+steps that they are left out. build/coverage-target/report.json holds all of it.
 
 Exit status: 0 when all is seen or has a reason, 1 when not, 2 when it could not be measured.
 """
@@ -29,7 +29,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter, deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -44,7 +44,7 @@ from keel.boards.conditions import BLOCK, BRANCH, SELECTION, Conditional, Condit
 from keel.boards.elf import Symbol, read_contents
 from keel.boards.firmware import Image
 from keel.boards.lines import read_lines
-from keel.config import Field, Table, Text, read_toml
+from keel.config import Field, Mistake, Table, Text, read_toml
 from keel.install import Toolchain
 from keel.test.emulated import EmulatedBoard
 from keel.test.emulated_tests import unit_image
@@ -54,17 +54,9 @@ from keel.test.trace import Outcomes, traced
 REPORT = ROOT / "build/coverage-target/report.json"
 REASONS = ROOT / "specs/object_coverage.toml"
 SOURCE = "src"
-# Hundreds of thousands of steps each, which instruction by instruction would take an hour: whatever
-# is compared with the model in random steps, and these; the last one has fewer, and shows nothing
-# that the voter's other tests do not.
+# Whatever is compared with the model in random steps: hundreds of thousands of them, which
+# instruction by instruction would take an hour. The file of reasons names other tests.
 UNTRACED_END = "specified"
-UNTRACED = (
-    "mixer_equations",
-    "reference_curves",
-    "attitude_motion",
-    "cascade_motion",
-    "voter_influence",
-)
 SHOWN = {BRANCH: "branches", BLOCK: "in IT blocks", SELECTION: "selections"}
 NEVER: dict[bool, Literal["taken", "not taken"]] = {True: "taken", False: "not taken"}
 
@@ -132,12 +124,24 @@ class Reason(Table):
 class Reasons(Table):
     """The file of reasons."""
 
+    untraced: list[Text] = []
     uncovered: list[Reason] = []
 
+    def traces(self, test: Path) -> bool:
+        """Whether a test is run: it has not too many steps."""
+        return not name_of(test).endswith(UNTRACED_END) and name_of(test) not in self.untraced
 
-def read_reasons(path: Path = REASONS) -> list[Reason]:
+
+def read_reasons(path: Path = REASONS, root: Path = ROOT) -> Reasons:
     """The reasons."""
-    return read_toml(path, Reasons).uncovered
+
+    def unknown(reasons: Reasons) -> Iterator[Mistake]:
+        tests = {name_of(path) for path in unit_tests(root)}
+        for number, name in enumerate(reasons.untraced):
+            if name not in tests:
+                yield ("untraced", number), f"there is no tests/unit/test_{name}.c"
+
+    return read_toml(path, Reasons, unknown)
 
 
 # --- Measuring -----------------------------------------------------------------------------------
@@ -151,11 +155,6 @@ def unit_tests(root: Path) -> list[Path]:
 def name_of(test: Path) -> str:
     """A test without what all of them begin and end with."""
     return test.stem.removeprefix("test_")
-
-
-def is_untraced(test: Path) -> bool:
-    """Whether a test has too many steps."""
-    return name_of(test).endswith(UNTRACED_END) or name_of(test) in UNTRACED
 
 
 Pairs = list[tuple[Conditional, Condition]]  # Of an image, and of all images.
@@ -172,11 +171,6 @@ class Measurement:
         self.found: dict[Key, Condition] = {}
         self.functions: set[tuple[str, str]] = set()
         self._texts: dict[str, list[str]] = {}
-
-    def tests(self) -> list[str]:
-        """The files of tests that are run."""
-        kept = [path for path in unit_tests(self.root) if not is_untraced(path)]
-        return [path.relative_to(self.root).as_posix() for path in kept]
 
     def run(self, sources: Sequence[str]) -> None:
         """Run files of tests: images are built one by one, while others run."""
@@ -270,17 +264,18 @@ class Measurement:
         return names
 
 
-def measure() -> tuple[list[Condition], dict[str, object]]:
+def measure(reasons: Reasons) -> tuple[list[Condition], dict[str, object]]:
     """Build and run; the conditions, and what the report says of the run."""
     tools = Toolchain()
     tools.ensure("target", "stack")
     board = EmulatedBoard(tools)
     measurement = Measurement(board)
-    tests = measurement.tests()
+    all_tests = unit_tests(ROOT)
+    tests = [path.relative_to(ROOT).as_posix() for path in all_tests if reasons.traces(path)]
     measurement.run(tests)
     measurement.check_all_functions()
     versions = {name: item.version for name, item in tools.versions("target", "stack").items()}
-    untraced = [name_of(path) for path in unit_tests(ROOT) if is_untraced(path)]
+    untraced = [name_of(path) for path in all_tests if not reasons.traces(path)]
     facts: dict[str, object]
     facts = {"tests": tests, "untraced": untraced, "flags": board.builder.flags, "tools": versions}
     return [measurement.found[key] for key in sorted(measurement.found)], facts
@@ -398,7 +393,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     def work() -> int:
         REPORT.unlink(missing_ok=True)
         reasons = read_reasons()
-        conditions, facts = measure()
-        return judge(conditions, reasons, facts)
+        conditions, facts = measure(reasons)
+        return judge(conditions, reasons.uncovered, facts)
 
     return program("coverage-target", work)

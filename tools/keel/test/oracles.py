@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds what fuzz targets compare decoders with: of Rust, and of MAVLink's own generator.
 
-Nothing of it is in the repository. Crates are those of tests/oracles/Cargo.lock.in, which pins each
-by its checksum, and cargo fetches them as it is configured here; the generator is pymavlink's.
+A target that includes oracles.h has one: of tests/fuzz/oracle_NAME.c, if there is such a file, or
+of Rust. Nothing of it is in the repository. Crates are those of tests/oracles/Cargo.lock.in, which
+pins each by its checksum, and cargo fetches them as it is configured here; the generator is
+pymavlink's.
 """
 
 from __future__ import annotations
@@ -18,11 +20,13 @@ from keel.base.errors import ROOT
 from keel.base.files import read_text, write_text
 from keel.base.run import output_of
 from keel.install import Toolchain
+from keel.test.sources import headers_of
 
+FOLDER = "tests/fuzz"
+HEADER = f"{FOLDER}/oracles.h"
 CRATES = ROOT / "tests/oracles"
 LOCK = "Cargo.lock"
-MAVLINK = "mavlink"
-OF_CRATES = ("crsf", "ibus", "ppm", "sbus", "ubx")
+OF_RUST, OF_C = "oracles", "mavlink"  # Groups of tools: the crates, and what makes C.
 REGISTRY = re.compile(r'^source = "(.*)"$', re.MULTILINE)
 PLACE = "@registry@"  # Where the pinned lock leaves out how cargo names the registry.
 ONE_AT_A_TIME = threading.Lock()  # Suites run side by side, and build the crates in one folder.
@@ -67,17 +71,34 @@ def mavlink(folder: Path) -> Path:
     return made
 
 
-def groups(target: str) -> tuple[str, ...]:
-    """The groups of tools that they need."""
-    return ("mavlink",) if target == MAVLINK else ("oracles",) if target in OF_CRATES else ()
+def source_of(target: str) -> str:
+    """The file of a fuzz target."""
+    return f"{FOLDER}/fuzz_{target}.c"
+
+
+def targets(root: Path = ROOT) -> list[str]:
+    """All fuzz targets."""
+    return sorted(path.stem.removeprefix("fuzz_") for path in (root / FOLDER).glob("fuzz_*.c"))
+
+
+def own_oracle(target: str, root: Path = ROOT) -> str:
+    """The file that calls a target's oracle of C, if it has one."""
+    name = f"{FOLDER}/oracle_{target}.c"
+    return name if (root / name).is_file() else ""
+
+
+def groups(target: str, root: Path = ROOT) -> tuple[str, ...]:
+    """The groups of tools that a target's oracle needs; none without oracle."""
+    if root / HEADER not in headers_of(root / source_of(target)):
+        return ()
+    return (OF_C,) if own_oracle(target, root) else (OF_RUST,)
 
 
 def of(tools: Toolchain, build: Build, target: str) -> list[Path]:
     """What a fuzz target is linked with."""
-    if target == MAVLINK:
-        generated = mavlink(build.folder).relative_to(ROOT).as_posix()
-        return [build.object("tests/fuzz/oracle_mavlink.c", ["-isystem", generated])]
-    if target not in OF_CRATES:
+    if not groups(target):
         return []
+    if own := own_oracle(target):
+        return [build.object(own, ["-isystem", mavlink(build.folder).relative_to(ROOT).as_posix()])]
     with ONE_AT_A_TIME:
         return [crates(tools, build.folder)]

@@ -24,8 +24,8 @@ from keel.base.errors import ROOT, ToolError, program
 from keel.base.run import Ended, run
 from keel.base.source import write_report
 from keel.install import Toolchain
-from keel.test.command import CAPACITIES
-from keel.test.sources import KERNEL, MODEL_SOURCES
+from keel.test.command import CAPACITIES, PROPERTIES
+from keel.test.sources import KERNEL, with_code
 
 BUILD = Path("build/soak")
 STEPS = 10**9
@@ -38,8 +38,13 @@ FLAGS = ["-std=c99", "-O2", "-ffp-contract=off", "-Iinclude"]
 def scheduler(tools: Toolchain, size: str, steps: int) -> list[str | Path]:
     """The command that drives the scheduler, at one capacity of its queue."""
     build = Build(tools, "gcc", [*FLAGS, *CAPACITIES[size][1]], ROOT / BUILD / size)
-    sources = [*KERNEL, *MODEL_SOURCES, "tests/property/test_scheduler.c"]
-    return [build.program("scheduler", sources), "--seed", str(SEED), "--steps", str(steps)]
+    return [
+        build.program("scheduler", [*KERNEL, *with_code(PROPERTIES)]),
+        "--seed",
+        str(SEED),
+        "--steps",
+        str(steps),
+    ]
 
 
 def floats(tools: Toolchain, steps: int) -> list[str | Path]:

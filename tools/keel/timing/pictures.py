@@ -12,6 +12,7 @@ Exit status: 0 when all were written, 2 when one is missing or too large.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -45,29 +46,26 @@ class Box(NamedTuple):
     tool: str = ""
 
 
-FLIES = (
-    Box("your tasks", "functions with a period, a budget and a priority", GREY),
-    Box(
-        "Keel: flight",
-        "filter   pid   mixer   reference   mode   calibration\n"
-        "attitude   axis   altitude   position   battery   cascade",
-        BLUE,
-    ),
-    Box(
-        "Keel: middleware",
-        "range   oversample   voter   virtual_imu   crc\n"
-        "ms5611   power_module   framing   sbus   crsf   ibus   ppm   ubx   mavlink   log_ring\n"
-        "signing   ulog",
-        BLUE,
-    ),
-    Box(
-        "Keel: rtos",
-        "scheduler   pass   spread   lateness   admission   decision\n"
-        "queue   task   stats   load   deviation   priority   clock",
-        BLUE,
-    ),
-    Box("your board", "a microsecond counter; drivers for two boards are here", GREY),
-)
+LAYERS = ("flight", "middleware", "rtos")
+NAMES = 64  # Letters of a line of units' names.
+
+
+def units_of(layer: str) -> str:
+    """The units of a layer."""
+    headers = {path.stem for path in (ROOT / "include/keel").glob(f"**/{layer}/*.h")}
+    names = sorted(name for name in headers if not name.endswith("_state"))
+    return textwrap.fill("  ".join(names), NAMES)
+
+
+def flies() -> list[Box]:
+    """What flies, layer on layer."""
+    return [
+        Box("your tasks", "functions with a period, a budget and a priority", GREY),
+        *(Box(f"Keel: {layer}", units_of(layer), BLUE) for layer in LAYERS),
+        Box("your board", "a microsecond counter; drivers for two boards are here", GREY),
+    ]
+
+
 SHOWS = (
     Box("contract of each function", "for all inputs; of floats: by CBMC", GREEN, "Frama-C/WP"),
     Box("executable specification", "same result, same fields, floats bit for bit", GREEN, "CBMC"),
@@ -75,7 +73,7 @@ SHOWS = (
     Box("mistakes on purpose", "a proof must notice each", RED, "mutants"),
     Box("tests", "on the host and on an emulated Cortex-M7", ORANGE, "sanitizers, QEMU"),
 )
-HEIGHT, STEP = 0.66, 0.77  # Of a box, and from one to the next.
+HEIGHT, STEP = 0.70, 0.77  # Of a box, and from one to the next.
 
 
 def draw_box(axes: Axes, box: Box, left: float, bottom: float, width: float, height: float) -> None:
@@ -84,9 +82,9 @@ def draw_box(axes: Axes, box: Box, left: float, bottom: float, width: float, hei
 
     axes.add_patch(Rectangle((left, bottom), width, height, facecolor="white", edgecolor="#cccccc"))
     axes.add_patch(Rectangle((left, bottom), 0.06, height, facecolor=box.colour))
-    top = bottom + height - 0.1
+    top = bottom + height - 0.08
     axes.text(left + 0.18, top, box.title, weight="bold", va="top")
-    axes.text(left + 0.18, top - 0.26, box.text, va="top", fontsize=8, linespacing=1.3)
+    axes.text(left + 0.18, top - 0.22, box.text, va="top", fontsize=8, linespacing=1.15)
     axes.text(left + width - 0.12, top, box.tool, va="top", ha="right", color=GREY, fontsize=8)
 
 
@@ -97,7 +95,7 @@ def plot_layers(path: Path) -> None:
     axes.set(xlim=(0.0, 9.0), ylim=(0.0, 4.3))
     axes.axis("off")
     for title, left, boxes in (
-        ("What flies", 0.05, FLIES),
+        ("What flies", 0.05, flies()),
         ("What shows that it is right", 4.85, SHOWS),
     ):
         axes.text(left, 4.05, title, fontsize=11, color=GREY)

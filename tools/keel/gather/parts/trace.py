@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What hangs together: requirement, clause, function, goal, harness, test and mutant, both ways."""
+"""What hangs together: requirement, clause, function, goal, harness and test, both ways."""
 
 from __future__ import annotations
 
@@ -17,8 +17,6 @@ from keel.trace.packages import packages
 from keel.trace.requirements import Requirement
 from keel.trace.verdicts import CBMC, GAPPA, HARNESS, TEST, WP, Verdict
 
-Mutants = dict[str, Counter[str]]  # By function: how many became what.
-
 TEXT = """\
 Every requirement is followed down to the clauses that state it, the functions whose contracts \
 have them, the goals and assertions that prove them, the harnesses and the tests; every clause, \
@@ -34,24 +32,6 @@ review."""
 def unit_of(path: str) -> str:
     """The unit that a file belongs to."""
     return PurePosixPath(path).stem
-
-
-def mutants_of(context: Context, units: Iterable[str]) -> Mutants:
-    """What became of the mutants of each function, where a report is of this very tree."""
-    found: Mutants = {}
-    for unit in units:
-        report = context.report(f"mutate/{unit}.json", [])  # Their own part tells what is missing.
-        for mutant in report.get("mutants", []):
-            found.setdefault(mutant["function"], Counter())[mutant["status"]] += 1
-    return found
-
-
-def summed(mutants: Mutants, functions: Iterable[str]) -> str:
-    """Killed of all, for some functions."""
-    counts: Counter[str] = Counter()
-    for name in functions:
-        counts += mutants.get(name, Counter())
-    return f"{counts['killed']} of {counts.total()} killed" if counts else ""
 
 
 def how_many(verdicts: Iterable[Verdict], by: str) -> str:
@@ -93,7 +73,7 @@ def function_item(one: Function, traced: Traced) -> Item:
     )
 
 
-def units_table(traced: Traced, mutants: Mutants) -> Table:
+def units_table(traced: Traced) -> Table:
     """Units by kind of evidence."""
     units = sorted({unit_of(one.file) for one in traced.trace.functions})
     rows = []
@@ -108,7 +88,6 @@ def units_table(traced: Traced, mutants: Mutants) -> Table:
                 str(sum(not one.helper for one in functions)),
                 str(sum(one.helper for one in functions)),
                 *(how_many(own, by) for by in (WP, CBMC, GAPPA, HARNESS, TEST)),
-                summed(mutants, [one.name for one in functions]),
             )
         )
     return Table(
@@ -123,20 +102,17 @@ def units_table(traced: Traced, mutants: Mutants) -> Table:
             "Gappa bounds",
             "harnesses",
             "tests",
-            "mutants",
         ),
         rows=tuple(rows),
         note="CBMC's built-in checks are counted with each harness, not here. Tests are those of"
-        " suites that bear the unit's name. Where no mutants stand, no report on them speaks"
-        " of this tree.",
+        " suites that bear the unit's name.",
     )
 
 
-def requirement_row(one: Requirement, traced: Traced, mutants: Mutants) -> tuple[str, ...]:
+def requirement_row(one: Requirement, traced: Traced) -> tuple[str, ...]:
     """A requirement with all that states, proves and tests it."""
     own = traced.verdicts.of(one)
     bearing = traced.verdicts.bearing(one.uid)
-    below = [f.name for f in traced.trace.functions if one.uid in f.requirements]
     return (
         f"requirement:{one.uid}",
         " ".join(f"requirement:{uid}" for uid in one.parents) or "derived",
@@ -147,12 +123,11 @@ def requirement_row(one: Requirement, traced: Traced, mutants: Mutants) -> tuple
         how_many(own, GAPPA),
         " ".join(verdict.key for verdict in own if verdict.by == HARNESS),
         how_many(own, TEST),
-        summed(mutants, below),
         traced.state[one.uid],
     )
 
 
-def requirements_table(traced: Traced, mutants: Mutants) -> Table:
+def requirements_table(traced: Traced) -> Table:
     """Low-level requirements by kind of evidence."""
     low = [one for one in traced.trace.requirements.values() if not one.high]
     return Table(
@@ -167,10 +142,9 @@ def requirements_table(traced: Traced, mutants: Mutants) -> Table:
             "Gappa bounds",
             "harnesses",
             "tests",
-            "mutants of these functions",
             "state",
         ),
-        rows=tuple(requirement_row(one, traced, mutants) for one in low),
+        rows=tuple(requirement_row(one, traced) for one in low),
         note="Goals and assertions are those that bear the requirement's id; harnesses those with"
         " such an assertion, or of a function that bears it. Requirements of boards are"
         " tested; the functions of bsp are not traced one by one.",
@@ -252,7 +226,6 @@ def make(context: Context) -> Part:
     proofs = context.report("prove/report.json", [])
     open_clauses, unnamed = unstated(traced, proofs)
     trouble += [*without_harness(traced, proofs), *unnamed]
-    mutants = mutants_of(context, sorted({unit_of(one.file) for one in trace.functions}))
     counts = Counter(verdict.by for verdict in traced.verdicts.every if verdict.uids)
     return Part(
         name="trace",
@@ -267,7 +240,7 @@ def make(context: Context) -> Part:
                 f"with a requirement's id: {by}": str(count) for by, count in sorted(counts.items())
             },
         },
-        tables=(units_table(traced, mutants), requirements_table(traced, mutants), open_clauses),
+        tables=(units_table(traced), requirements_table(traced), open_clauses),
         items=tuple({one.name: function_item(one, traced) for one in trace.functions}.values()),
         files=files,
         problems=tuple(trouble),
