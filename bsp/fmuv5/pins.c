@@ -35,6 +35,9 @@ static const keel_level_t levels[] = {
 
 static const keel_pin_t armed = KEEL_ARMED(I, 0u);
 
+/* Of the button in a satellite receiver's case. An IO processor reads it, and drives its light. */
+static const keel_board_safety_t safety = KEEL_SAFETY(E, 10u, E, 12u);
+
 /* The power modules' connectors, whose modules divide the battery's voltage by 18.1 and give a volt
  * for 36.4 A (PX4's board configuration of px4/fmu-v5); and the board's own supplies. */
 static const keel_analogue_t analogue[KEEL_ANALOGUES] = {
@@ -101,6 +104,7 @@ const keel_board_pins_t keel_board_pins = {
     .memory = &fram,
     .barometer = &barometer,
     .magnetometer = &magnetometer,
+    .safety = &safety,
     .lines = {[KEEL_LINE_PILOT] = {KEEL_UART(USART6, APB2, DMA2, 1u, 5u),
                                    .rx = KEEL_ALTERNATE(G, 9u, 8u, USART6, RX)},
               [KEEL_LINE_SPARE] = {KEEL_UART(USART3, APB1, DMA1, 1u, 4u),

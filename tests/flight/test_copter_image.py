@@ -189,6 +189,7 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
         "receiver of the pilot status 0",
         "receiver of satellites status 0",
         "telemetry status 0",
+        "safety switch status 0",
     ):
         assert f"{line}\r\n" in chip.text
     first, second = reports(chip)
@@ -235,6 +236,7 @@ def test_a_board_with_less_says_so(tools: Toolchain, images: Path) -> None:
         "receiver of the pilot missing: the board has no such line",
         "parameters missing: not kept in flash",
         "card missing: the board has no slot",
+        "safety switch missing: the board has none",
     ):
         assert f"{line}\r\n" in chip.text
     (report,) = reports(chip)
@@ -293,7 +295,7 @@ def turner(
 ) -> Chip:
     board = read_board(root, name)
     made = builder or firmware.Builder(tools, board, root / "build/turner" / name, root)
-    own = ("board_port.c", "board_lines.c")
+    own = ("board_port.c", "board_lines.c", "board_panel.c")
     parts = ["examples/turner", *(f"examples/copter_on_board/{name}" for name in own)]
     image = made.link("keel", [*made.objects(parts), *made.fatfs()])
     sockets = read_sockets(ROOT)[name].outputs

@@ -93,6 +93,24 @@ typedef struct keel_led {
     bool active_low; /**< It shines when the pin is low; the pin is then an open drain. */
 } keel_led_t;
 
+/**
+ * The pins of a safety switch: its button, and its light. `make check NAME=registers` holds them
+ * against specs/outputs.toml.
+ */
+#define KEEL_SAFETY(letter, number, other, another)                                                \
+    {                                                                                              \
+        KEEL_PIN(letter, number),                                                                  \
+        {                                                                                          \
+            KEEL_PIN(other, another), true                                                         \
+        }                                                                                          \
+    }
+
+/** A safety switch: a button that joins its pin to the supply, and a light. */
+typedef struct keel_board_safety {
+    keel_pin_t button;
+    keel_led_t light;
+} keel_board_safety_t;
+
 /** The lights of both boards. */
 typedef enum keel_led_name {
     KEEL_LED_RED = 0,
@@ -264,6 +282,7 @@ typedef struct keel_board_pins {
     const keel_board_device_t *memory;             /**< FM25V02 at SPI 2; null: none. */
     const keel_board_device_t *barometer;          /**< MS5611 at SPI 4; null: none. */
     const keel_board_magnetometer_t *magnetometer; /**< Null: none. */
+    const keel_board_safety_t *safety;             /**< Null: none. */
     keel_board_line_t lines[KEEL_CHIP_LINES];      /**< By keel_chip_line_t. */
     uint32_t kept_sector; /**< The first of two flash sectors that images leave free, where there is
                                no memory; 0: none. */
@@ -279,6 +298,24 @@ extern const keel_board_pins_t keel_board_pins;
  * @param on   whether it shines
  */
 void keel_chip_led(keel_led_name_t name, bool on);
+
+/**
+ * Starts the board's safety switch: its button's pin is held low, so that an open socket reads as
+ * a button that nobody presses, and its light is dark.
+ *
+ * @return whether the board has one
+ */
+bool keel_chip_safety_start(void);
+
+/** Whether the button of the safety switch is pressed now; false where there is none. */
+bool keel_chip_safety_is_pressed(void);
+
+/**
+ * Sets the light of the safety switch, if there is one.
+ *
+ * @param on whether it shines
+ */
+void keel_chip_safety_light(bool on);
 
 /** How many inertial units the board says that it has, 1 to KEEL_CHIP_INERTIAL_UNITS. */
 uint32_t keel_chip_inertial_count(void);

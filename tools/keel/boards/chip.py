@@ -164,6 +164,8 @@ class Chip:
         }
         self.spis = Spis(wiring.buses, [(seat, devices[seat.name]) for seat in wiring.seats])
         self.i2c_pins = wiring.i2c
+        self.button = wiring.button
+        self.presses: list[tuple[int, int]] = []  # From when to when the button is held, in us.
         self.magnetometer = Ist8310(there=broken != "magnetometer")
         self.i2c = I2c({IST8310_ADDRESS: self.magnetometer})
         self.store: Callable[[int, int], None] = lambda *_: None  # The processor has the memory.
@@ -305,9 +307,19 @@ class Chip:
                 raise ModelError("a transfer begins, but a pin is not the I2C's, or pushes")
 
     def _inputs(self, port: int) -> int:
-        """What pins read, as far as anything is joined to them: the lines of the I2C."""
+        """What pins read, as far as anything is joined to them: the lines of the I2C, and the
+        button of the safety switch."""
         levels = dict(zip(self.i2c_pins or (), self.i2c.lines(), strict=False))
+        if self.button and self.button[0] == port:
+            levels[self.button] = self._is_pressed(self.button)
         return sum(high << pin[1] for pin, high in levels.items() if pin[0] == port)
+
+    def _is_pressed(self, pin: tuple[int, int]) -> bool:
+        """A button joins its pin to the supply; open, the pin is what it is pulled to."""
+        base, place = GPIOA + 0x400 * pin[0], 2 * pin[1]
+        if self.words.get(base, 0) >> place & 3 or self.words.get(base + 0xC, 0) >> place & 3 != 2:
+            raise ModelError("the button is read, but its pin is no input that is pulled down")
+        return any(begin <= self.time_us < end for begin, end in self.presses)
 
     def _outputs(self, base: int, offset: int) -> None:
         """A timer of the outputs, or a port, has changed."""

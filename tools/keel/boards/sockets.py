@@ -18,6 +18,7 @@ INERTIAL_LINE = re.compile(r"KEEL_INERTIAL(?:_PAIR)?\((\w+), ((?:\w, \d+u, )+)" 
 MAGNETOMETER_LINE = re.compile(r"KEEL_MAGNETOMETER\(" + AXES)
 UART_LINE = re.compile(r"\[KEEL_LINE_(\w+)\] = \{KEEL_UART\((\w+),")
 ARMED_LINE = re.compile(r"KEEL_ARMED\((\w), (\d+)u\)")
+SAFETY_LINE = re.compile(r"KEEL_SAFETY\((\w), (\d+)u, (\w), (\d+)u\)")
 LEVEL_LINE = re.compile(r"KEEL_LEVEL\((\w), (\d+)u, (true|false)\)")
 
 
@@ -32,6 +33,7 @@ class Sockets(Table):
     magnetometer: Text | None = None
     lines: list[Text] = []
     armed: Text | None = None
+    safety: Text | None = None
 
     @property
     def watched(self) -> list[str]:
@@ -78,6 +80,10 @@ def stated(text: str) -> dict[str, list[str]]:
         "magnetometer": [" ".join(axes) for axes in MAGNETOMETER_LINE.findall(text)],
         "lines": [" ".join(line) for line in UART_LINE.findall(text)],
         "armed": [f"P{port}{number}" for port, number in ARMED_LINE.findall(text)],
+        "safety": [
+            f"P{port}{number} P{other}{another}"
+            for port, number, other, another in SAFETY_LINE.findall(text)
+        ],
     }
 
 
@@ -91,6 +97,7 @@ def expected(board: Sockets) -> dict[str, list[str]]:
         "magnetometer": [board.magnetometer] if board.magnetometer else [],
         "lines": board.lines,
         "armed": [board.armed] if board.armed else [],
+        "safety": [board.safety] if board.safety else [],
     }
 
 

@@ -47,6 +47,7 @@ class Wiring:
     seats: tuple[Seat, ...]
     lines: Mapping[str, LineWiring] = field(default_factory=dict)
     i2c: tuple[Pin, Pin] | None = None  # SCL and SDA of I2C 3, with an IST8310.
+    button: Pin | None = None  # Of the safety switch: it joins its pin to 3.3 V.
 
 
 def icm20689(select: Pin, supply: Pin | None) -> Seat:
@@ -79,5 +80,6 @@ WIRINGS = {
             "telemetry": LineWiring("USART2", 1, 5, (3, 6), 7, (APB1ENR, 17), 54_000_000),
         },
         ((7, 7), (7, 8)),
+        (4, 10),
     ),
 }
