@@ -77,6 +77,11 @@ static const keel_board_magnetometer_t magnetometer = {
     .mounting = KEEL_MAGNETOMETER(2, 1, -3),
 };
 
+/* Beside the socket of the pilot's receiver, where the board has one of its own. */
+static const keel_alternate_t ppm = KEEL_PPM(I, 5u, 3u, TIM8, CH1);
+
+static const keel_alternate_t buzzer = KEEL_BUZZER(E, 5u, 3u, TIM9, CH1);
+
 const keel_board_pins_t keel_board_pins = {
     .oscillator = {16000000u, false},
     .console = (keel_uart_t *)UART7_BASE,
@@ -105,6 +110,8 @@ const keel_board_pins_t keel_board_pins = {
     .barometer = &barometer,
     .magnetometer = &magnetometer,
     .safety = &safety,
+    .ppm = &ppm,
+    .buzzer = &buzzer,
     .lines = {[KEEL_LINE_PILOT] = {KEEL_UART(USART6, APB2, DMA2, 1u, 5u),
                                    .rx = KEEL_ALTERNATE(G, 9u, 8u, USART6, RX)},
               [KEEL_LINE_SPARE] = {KEEL_UART(USART3, APB1, DMA1, 1u, 4u),

@@ -219,4 +219,5 @@ const copter_settings_t copter_defaults = {
     .stop_s = 0.8f,
     .fence_margin = 2.0f,
     .fence_rate = 0.25f,
+    .buzzer = true,
     .system = 1u};

@@ -79,6 +79,7 @@ typedef struct copter_settings {
     float fence_margin;      /**< The pilot comes so near to the fence, in m. */
     float fence_rate;        /**< Of the way that is left, so much a second, in 1/s. */
     bool safety_switch;      /**< The board's safety switch is used: at safe it does not arm. */
+    bool buzzer;             /**< The board's buzzer sounds. */
     uint8_t system;          /**< Its number among the vehicles that MAVLink connects. */
 } copter_settings_t;
 

@@ -354,6 +354,7 @@ static void start_panel(board_panel_t *panel)
 {
     board_panel_start(panel);
     say("safety switch", 0u, panel->has_safety ? NULL : "the board has none");
+    say("buzzer", 0u, panel->has_buzzer ? NULL : "the board has none");
 }
 
 static void start_converter(board_port_t *board)

@@ -120,8 +120,13 @@ static void turn_lines(void)
 
 static void turn_panel(void)
 {
+    const keel_mode_t *const mode = &copter.state.mode;
     const board_shown_t shown = {.uses_safety = copter_settings.safety_switch,
-                                 .motors = copter.state.mode.motors};
+                                 .sounds = copter_settings.buzzer,
+                                 .motors = mode->motors,
+                                 .can_try = mode->ready,
+                                 .is_linked = (mode->settled & KEEL_MODE_RC_LINKED) != 0u,
+                                 .is_low = copter.power.battery.level >= KEEL_BATTERY_LOW};
 
     board_panel_turn(&board.panel, &shown, keel_board_clock_us(NULL));
 }

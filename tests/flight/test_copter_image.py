@@ -190,6 +190,7 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
         "receiver of satellites status 0",
         "telemetry status 0",
         "safety switch status 0",
+        "buzzer status 0",
     ):
         assert f"{line}\r\n" in chip.text
     first, second = reports(chip)
@@ -237,6 +238,7 @@ def test_a_board_with_less_says_so(tools: Toolchain, images: Path) -> None:
         "parameters missing: not kept in flash",
         "card missing: the board has no slot",
         "safety switch missing: the board has none",
+        "buzzer missing: the board has none",
     ):
         assert f"{line}\r\n" in chip.text
     (report,) = reports(chip)

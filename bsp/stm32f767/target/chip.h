@@ -13,6 +13,8 @@
 #include "devices/inertial.h"
 #include "keel/rtos/scheduler.h"
 #include "stm32f767/adc.h"
+#include "stm32f767/buzzer.h"
+#include "stm32f767/capture.h"
 #include "stm32f767/clock_tree.h"
 #include "stm32f767/pin.h"
 #include "stm32f767/pwm.h"
@@ -73,6 +75,14 @@ extern const keel_pwm_timer_t keel_chip_timers[KEEL_CHIP_TIMERS];
 #define KEEL_OUTPUT(letter, number, function, timer, channel)                                      \
     {KEEL_PIN(letter, number), (function), &keel_chip_timers[KEEL_TIMER_##timer],                  \
      KEEL_CHANNEL_##channel}
+
+/** The pin of a receiver of PPM, of timer 8; held against a database and specs/outputs.toml. */
+#define KEEL_PPM(letter, number, function, timer, channel)                                         \
+    KEEL_ALTERNATE(letter, number, function, timer, channel)
+
+/** The pin of the buzzer, of timer 9; held against a database and specs/outputs.toml. */
+#define KEEL_BUZZER(letter, number, function, timer, channel)                                      \
+    KEEL_ALTERNATE(letter, number, function, timer, channel)
 
 /** A pin that has one level for good; `make check NAME=registers` holds it against
  * specs/outputs.toml. */
@@ -283,6 +293,8 @@ typedef struct keel_board_pins {
     const keel_board_device_t *barometer;          /**< MS5611 at SPI 4; null: none. */
     const keel_board_magnetometer_t *magnetometer; /**< Null: none. */
     const keel_board_safety_t *safety;             /**< Null: none. */
+    const keel_alternate_t *ppm;                   /**< At timer 8, channel 1; null: none. */
+    const keel_alternate_t *buzzer;                /**< At timer 9, channel 1; null: none. */
     keel_board_line_t lines[KEEL_CHIP_LINES];      /**< By keel_chip_line_t. */
     uint32_t kept_sector; /**< The first of two flash sectors that images leave free, where there is
                                no memory; 0: none. */
@@ -316,6 +328,22 @@ bool keel_chip_safety_is_pressed(void);
  * @param on whether it shines
  */
 void keel_chip_safety_light(bool on);
+
+/**
+ * Starts the board's buzzer, silent. To be called once, before those below.
+ *
+ * @return whether the board has one
+ */
+bool keel_chip_buzzer_start(void);
+
+/** Plays a tune, as keel_buzzer_play, if there is a buzzer. */
+void keel_chip_buzzer_play(const keel_tone_t *tones, uint32_t count);
+
+/** Lets time pass for the tune, as keel_buzzer_turn, if there is a buzzer. */
+void keel_chip_buzzer_turn(uint32_t elapsed_us);
+
+/** Whether a tune plays; false without a buzzer, too. */
+bool keel_chip_buzzer_plays(void);
 
 /** How many inertial units the board says that it has, 1 to KEEL_CHIP_INERTIAL_UNITS. */
 uint32_t keel_chip_inertial_count(void);
@@ -414,6 +442,24 @@ bool keel_chip_line_read(keel_chip_line_t name, keel_receiver_byte_t *byte);
  * @return whether it is on its way; false before the line's start, too
  */
 bool keel_chip_line_send(keel_chip_line_t name, uint8_t value);
+
+/** Whether the board has a pin for a receiver of PPM. */
+bool keel_chip_has_ppm(void);
+
+/**
+ * Starts to take the edges of a receiver of PPM, or starts anew: what was unread is forgotten.
+ *
+ * @return as keel_capture_start; KEEL_BSP_ARGUMENT when the board has no such pin
+ */
+keel_bsp_status_t keel_chip_ppm_start(void);
+
+/**
+ * The next edge of PPM, as keel_capture_read.
+ *
+ * @param elapsed_us the time since the edge before, in us; as it was when there is none
+ * @return whether there is one; false before the start, too
+ */
+bool keel_chip_ppm_read(uint32_t *elapsed_us);
 
 /** What came by a line, and what did not; all 0 before its start. */
 const keel_receiver_count_t *keel_chip_line_count(keel_chip_line_t name);

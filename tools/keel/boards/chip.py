@@ -10,6 +10,7 @@ from functools import partial
 from keel.base.errors import ToolError
 from keel.boards.attached import DMAS, I2C3, Attached, ClockError
 from keel.boards.bmi055 import ACCELEROMETER_ID, GYROSCOPE_ID, Bmi055Part
+from keel.boards.capture import TIM8, Capture
 from keel.boards.card import CardError, CardHost, SdCard
 from keel.boards.dma_uart import UARTS, DmaUartError
 from keel.boards.fram import Fram
@@ -26,6 +27,7 @@ from keel.boards.wiring import BMI055, UART7, USART3, Wiring
 # Bases of the peripherals (RM0410, table 1).
 TIM5, IWDG, PWR, TIM1, TIM4 = 0x4000_0C00, 0x4000_3000, 0x4000_7000, 0x4001_0000, 0x4000_0800
 GPIOA, RCC, FLASHR, TIM12 = 0x4002_0000, 0x4002_3800, 0x4002_3C00, 0x4000_1800
+TIM9 = 0x4001_4000
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
 ADC1, ADC_COMMON, SDMMC1 = 0x4001_2000, 0x4001_2300, 0x4001_2C00
 BLOCKS = {
@@ -45,6 +47,8 @@ BLOCKS = {
     SYSTICK: 0x10,
     TIM4: 0x54,
     TIM12: 0x54,
+    TIM9: 0x54,
+    TIM8: 0x68,
     NVIC: 0x200,
     ADC1: 0x50,
     ADC_COMMON: 0xC,
@@ -86,6 +90,7 @@ FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
 CORE_MHZ = 216
 I2C_FUNCTION = 4  # Of the pins of I2C 3.
+PPM_FUNCTION = 3  # Of the pin that timer 8 captures at.
 SENSORS = ("sensor", "other-sensor", "second-sensor")  # Without the first, or another, …
 BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", "magnetometer", *SENSORS)
 
@@ -169,9 +174,15 @@ class Chip:
         self.magnetometer = Ist8310(there=broken != "magnetometer")
         self.i2c = I2c({IST8310_ADDRESS: self.magnetometer})
         self.store: Callable[[int, int], None] = lambda *_: None  # The processor has the memory.
+        self.ppm = Capture(
+            lambda address, byte: self.store(address, byte),
+            lambda: timers()["TIM9"].mhz(self.words),
+            lambda: wiring.ppm is not None and self._is_pulled_up(wiring.ppm, PPM_FUNCTION),
+        )
         self.attached = Attached(
             wiring.lines,
             self.i2c if wiring.i2c else None,
+            self.ppm if wiring.ppm else None,
             lambda clock: bool(self.words.get(clock[0], 0) >> clock[1] & 1),
             self._function_of,
             lambda address, byte: self.store(address, byte),
@@ -457,6 +468,11 @@ class Chip:
         if self.words.get(base, 0) >> 2 * number & 3 != 2:
             return None
         return self.words.get(base + 0x20 + 4 * (number // 8), 0) >> 4 * (number % 8) & 0xF
+
+    def _is_pulled_up(self, pin: tuple[int, int], function: int) -> bool:
+        """Whether a pin has an alternate function, and a pull-up: who only pulls it low is heard."""
+        pull = self.words.get(GPIOA + 0x400 * pin[0] + 0xC, 0) >> 2 * pin[1] & 3
+        return pull == 1 and self._function_of(pin) == function
 
     def _tim1(self, offset: int, value: int) -> None:
         if offset == 0x44:

@@ -144,7 +144,7 @@ class Comparison:
             self.differences.append(f"{fact.where}: {fact.name} ({fact.block}): no counterpart")
 
 
-PIN_LINE = re.compile(r"KEEL_(?:ALTERNATE|OUTPUT)\((\w), (\d+)u, (\d+)u, (\w+), (\w+)\)")
+PIN_LINE = re.compile(r"KEEL_(?:ALTERNATE|OUTPUT|BUZZER|PPM)\((\w), (\d+)u, (\d+)u, (\w+), (\w+)\)")
 ANALOGUE_LINE = re.compile(r"KEEL_ANALOGUE\((\w), (\d+)u, (\d+)u\)")
 
 

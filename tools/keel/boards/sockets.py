@@ -19,6 +19,8 @@ MAGNETOMETER_LINE = re.compile(r"KEEL_MAGNETOMETER\(" + AXES)
 UART_LINE = re.compile(r"\[KEEL_LINE_(\w+)\] = \{KEEL_UART\((\w+),")
 ARMED_LINE = re.compile(r"KEEL_ARMED\((\w), (\d+)u\)")
 SAFETY_LINE = re.compile(r"KEEL_SAFETY\((\w), (\d+)u, (\w), (\d+)u\)")
+PPM_LINE = re.compile(r"KEEL_PPM\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
+BUZZER_LINE = re.compile(r"KEEL_BUZZER\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
 LEVEL_LINE = re.compile(r"KEEL_LEVEL\((\w), (\d+)u, (true|false)\)")
 
 
@@ -34,6 +36,8 @@ class Sockets(Table):
     lines: list[Text] = []
     armed: Text | None = None
     safety: Text | None = None
+    ppm: Text | None = None
+    buzzer: Text | None = None
 
     @property
     def watched(self) -> list[str]:
@@ -62,6 +66,11 @@ def pins_in(text: str) -> list[str]:
     return [f"P{port}{number}" for port, number in re.findall(r"(\w), (\d+)u", text)]
 
 
+def channels_in(line: re.Pattern[str], text: str) -> list[str]:
+    """Pins with their timers' channels."""
+    return [f"P{port}{number} {timer}_{channel}" for port, number, timer, channel in line.findall(text)]
+
+
 def stated(text: str) -> dict[str, list[str]]:
     """What a pin table says, by the names of specs/outputs.toml."""
     return {
@@ -69,10 +78,7 @@ def stated(text: str) -> dict[str, list[str]]:
             " ".join([kind, *pins_in(pins), *axes])
             for kind, pins, *axes in INERTIAL_LINE.findall(text)
         ],
-        "outputs": [
-            f"P{port}{number} {timer}_{channel}"
-            for port, number, timer, channel in OUTPUT_LINE.findall(text)
-        ],
+        "outputs": channels_in(OUTPUT_LINE, text),
         "levels": sorted(
             f"P{port}{number} {'high' if high == 'true' else 'low'}"
             for port, number, high in LEVEL_LINE.findall(text)
@@ -84,6 +90,8 @@ def stated(text: str) -> dict[str, list[str]]:
             f"P{port}{number} P{other}{another}"
             for port, number, other, another in SAFETY_LINE.findall(text)
         ],
+        "ppm": channels_in(PPM_LINE, text),
+        "buzzer": channels_in(BUZZER_LINE, text),
     }
 
 
@@ -98,6 +106,8 @@ def expected(board: Sockets) -> dict[str, list[str]]:
         "lines": board.lines,
         "armed": [board.armed] if board.armed else [],
         "safety": [board.safety] if board.safety else [],
+        "ppm": [board.ppm] if board.ppm else [],
+        "buzzer": [board.buzzer] if board.buzzer else [],
     }
 
 

@@ -48,6 +48,7 @@ class Wiring:
     lines: Mapping[str, LineWiring] = field(default_factory=dict)
     i2c: tuple[Pin, Pin] | None = None  # SCL and SDA of I2C 3, with an IST8310.
     button: Pin | None = None  # Of the safety switch: it joins its pin to 3.3 V.
+    ppm: Pin | None = None  # Of a receiver of PPM, which only pulls it low.
 
 
 def icm20689(select: Pin, supply: Pin | None) -> Seat:
@@ -81,5 +82,6 @@ WIRINGS = {
         },
         ((7, 7), (7, 8)),
         (4, 10),
+        (8, 5),
     ),
 }
