@@ -1,18 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A flight controller after the Pixhawk standard FMUv5. */
+/* What flight controllers after the Pixhawk standard FMUv5 have in common; variant.c has the rest. */
 #include "board.h"
 #include "stm32f767/target/chip.h"
-
-const char keel_board_name[] = "fmuv5";
-
-/* What Pixhawk 4 and 4 Mini carry. CUAV V5 has an ICM-20602 besides, which stays silent here. */
-static const keel_board_inertial_t inertial[] = {
-    KEEL_INERTIAL(ICM20689, F, 2u, 2, 1, -3),
-    KEEL_INERTIAL_PAIR(BMI055, F, 4u, G, 10u, 2, 1, -3),
-};
-
-/* What else may be at their bus: the ICM-20602, and the connector for a memory. */
-static const keel_pin_t others[] = {KEEL_PIN(F, 3u), KEEL_PIN(H, 5u)};
 
 /* FMU_CH1 to FMU_CH8; with an IO processor on the board these are its auxiliary outputs. */
 static const keel_pwm_output_t outputs[] = {
@@ -99,10 +88,6 @@ const keel_board_pins_t keel_board_pins = {
     .sck = KEEL_ALTERNATE(G, 11u, 5u, SPI1, SCK),
     .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO),
     .mosi = KEEL_ALTERNATE(D, 7u, 5u, SPI1, MOSI),
-    .inertial = inertial,
-    .inertial_count = 2u,
-    .deselect = others,
-    .deselect_count = 2u,
     .analogue = analogue,
     .analogue_count = KEEL_ANALOGUES,
     .card = &slot,

@@ -196,7 +196,7 @@ MISTAKES = (
     (PINS, "KEEL_BUZZER(E, 5u, 3u, TIM9, CH1)", "KEEL_BUZZER(E, 5u, 2u, TIM9, CH1)"),
     (PANEL, "keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_TIM9EN);", ""),
     (PANEL, "((keel_tim_t *)TIM9_BASE)", "((keel_tim_t *)TIM12_BASE)"),
-    (PANEL, "keel_timer_hz(KEEL_CORE_HZ, apb2)", "KEEL_APB2_LIMIT_HZ"),
+    (PANEL, "keel_timer_hz(KEEL_CORE_HZ, apb2)", "keel_timer_hz(KEEL_CORE_HZ, apb2) / 2u"),
     (PANEL, "keel_chip_give(*PINS->buzzer, KEEL_PULL_DOWN);", ""),
     (BUZZER_FILE, "tim->CCER = TIM_CCER_CC1E;", "tim->CCER = TIM_CCER_CC2E;"),
     (BUZZER_FILE, "silence(tim);\n if ((tone->hz >=", "if ((tone->hz >="),

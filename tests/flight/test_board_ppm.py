@@ -127,7 +127,7 @@ MISTAKES = (
     (LINES, "keel_chip_give(*PINS->ppm, KEEL_PULL_UP)", "keel_chip_give(*PINS->ppm, KEEL_PULL_DOWN)"),
     (LINES, "keel_chip_give(*PINS->ppm, KEEL_PULL_UP)", "keel_chip_give(*PINS->ppm, KEEL_PULL_NONE)"),
     (LINES, "keel_chip_give(*PINS->ppm, KEEL_PULL_UP);", ""),
-    (LINES, "keel_timer_hz(KEEL_CORE_HZ, apb2)", "KEEL_APB2_LIMIT_HZ"),
+    (LINES, "keel_timer_hz(KEEL_CORE_HZ, apb2)", "keel_timer_hz(KEEL_CORE_HZ, apb2) / 2u"),
     (LINES, "keel_capture_t capture KEEL_REALTIME_ZERO;", "keel_capture_t capture;"),
     (CAPTURE, "tim->EGR = TIM_EGR_UG; /* Takes the prescaler over. */", ""),
     (CAPTURE, "tim->DIER = TIM_DIER_CC1DE;", ""),

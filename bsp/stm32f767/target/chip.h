@@ -266,6 +266,17 @@ typedef struct keel_board_line {
 #define KEEL_IS_APB1 0
 #define KEEL_IS_APB2 1
 
+/** The inertial units of a board. */
+typedef struct keel_board_units {
+    const keel_board_inertial_t *unit; /**< In the order of the vote. */
+    uint32_t count;                    /**< 1 to KEEL_CHIP_INERTIAL_UNITS. */
+    const keel_pin_t *deselect;        /**< Other devices on the bus, which must stay silent. */
+    uint32_t deselect_count;
+} keel_board_units_t;
+
+/** Board: its inertial units, in which boards after one standard differ. */
+extern const keel_board_units_t keel_board_units;
+
 /** What a board says about itself. */
 typedef struct keel_board_pins {
     keel_oscillator_t oscillator;
@@ -282,10 +293,6 @@ typedef struct keel_board_pins {
     keel_alternate_t sck;    /**< SPI 1, with the inertial units. */
     keel_alternate_t miso;
     keel_alternate_t mosi;
-    const keel_board_inertial_t *inertial; /**< In the order of the vote. */
-    uint32_t inertial_count;               /**< 1 to KEEL_CHIP_INERTIAL_UNITS. */
-    const keel_pin_t *deselect;            /**< Other devices on the bus, which must stay silent. */
-    uint32_t deselect_count;
     const keel_analogue_t *analogue;               /**< By keel_analogue_name_t; null: none. */
     uint32_t analogue_count;                       /**< KEEL_ANALOGUES, or 0. */
     const keel_board_card_t *card;                 /**< Null: no slot. */

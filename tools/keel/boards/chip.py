@@ -91,7 +91,7 @@ OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and lock
 CORE_MHZ = 216
 I2C_FUNCTION = 4  # Of the pins of I2C 3.
 PPM_FUNCTION = 3  # Of the pin that timer 8 captures at.
-SENSORS = ("sensor", "other-sensor", "second-sensor")  # Without the first, or another, …
+SENSORS = ("sensor", "other-sensor", "second-sensor", "third-sensor")  # Without the first, or another, …
 BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", "magnetometer", *SENSORS)
 
 
@@ -145,6 +145,7 @@ class Chip:
         self.broken = broken
         identity = OTHER if broken == "other-sensor" else IDENTITY
         self.sensor = Icm20689(identity, there=broken != "sensor")
+        self.third = Icm20689(OTHER, there=broken != "third-sensor")  # The ICM-20602.
         self.gyroscope = Bmi055Part(GYROSCOPE_ID, there=broken != "second-sensor")
         self.accelerometer = Bmi055Part(ACCELEROMETER_ID, there=broken != "second-sensor")
         self.step_us = 1  # By how much a reading of the time base moves time on.
@@ -163,6 +164,7 @@ class Chip:
         self.barometer = Ms5611(there=broken != "barometer")
         devices: dict[str, Device] = {
             "ICM-20689": self.sensor,
+            "ICM-20602": self.third,
             "memory": self.fram,
             "barometer": self.barometer,
             **dict(zip(BMI055, (self.gyroscope, self.accelerometer), strict=True)),

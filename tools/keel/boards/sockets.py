@@ -8,10 +8,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from keel.base.files import read_text
+from keel.boards.board import BOARD_FILE, BoardFile, board_names
 from keel.config import Table, Text, read_toml
 
 SOCKETS = "specs/outputs.toml"
-PINS = "bsp/*/pins.c"
+TABLE = "keel_board_pins = {"  # The beginning of a board's pin table.
 OUTPUT_LINE = re.compile(r"KEEL_OUTPUT\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
 AXES = r"(-?\d), (-?\d), (-?\d)\)"
 INERTIAL_LINE = re.compile(r"KEEL_INERTIAL(?:_PAIR)?\((\w+), ((?:\w, \d+u, )+)" + AXES)
@@ -111,16 +112,29 @@ def expected(board: Sockets) -> dict[str, list[str]]:
     }
 
 
+def tables(root: Path) -> Iterator[tuple[str, list[Path]]]:
+    """The boards with a pin table, with the files of their own: boards may share one."""
+    for name in board_names(root):
+        own = read_toml(root / f"bsp/{name}/{BOARD_FILE}", BoardFile).sources
+        paths = [
+            path
+            for source in own
+            for path in (sorted((root / source).glob("*.c")) or [root / source])
+        ]
+        if any(path.suffix == ".c" and TABLE in read_text(path) for path in paths):
+            yield name, paths
+
+
 def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
-    """Each pin table, how much of it was compared, and what is not as others say."""
+    """Each board with a pin table, how much of it was compared, and what is not as others say."""
     known = read_sockets(root)
-    for path in sorted(root.glob(PINS)):
-        where = path.relative_to(root).as_posix()
-        board = known.pop(path.parent.name, None)
+    for name, paths in tables(root):
+        where = f"bsp/{name}"
+        board = known.pop(name, None)
         if board is None:
             yield where, 0, [f"{where}: {SOCKETS} does not have this board"]
             continue
-        others, own = expected(board), stated(read_text(path))
+        others, own = expected(board), stated("".join(map(read_text, paths)))
         wrong = [
             f"{where}: {key} {', '.join(own[key])}; {SOCKETS} has {', '.join(others[key])}"
             for key in others
@@ -128,4 +142,4 @@ def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
         ]
         yield where, sum(map(len, own.values())), wrong
     for name in known:
-        yield SOCKETS, 0, [f"{SOCKETS}: {name}: there is no bsp/{name}/pins.c"]
+        yield SOCKETS, 0, [f"{SOCKETS}: {name}: there is no such board with a pin table"]

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from keel.boards.spi import SPI1, SPI2, SPI4, Bus, Pin, Seat
 
@@ -85,3 +85,7 @@ WIRINGS = {
         (8, 5),
     ),
 }
+
+# After FMUv5, with an ICM-20602 besides.
+ICM20602 = Seat("ICM-20602", SPI1, (5, 3), 10.0, SENSORS_ON, 11_000)
+WIRINGS["cuav_v5"] = replace(WIRINGS["fmuv5"], seats=(*WIRINGS["fmuv5"].seats, ICM20602))
