@@ -134,7 +134,7 @@ MISTAKES = (
     (CAPTURE, "tim->CCER = TIM_CCER_CC1E;", "tim->CCER = TIM_CCER_CC2E;"),
     (CAPTURE, " | FIELD(TIM_CCMR1_IC1F, SLOWEST_FILTER)", ""),
     (CAPTURE, "FIELD(TIM_CR1_CKD, QUARTER_CLOCK) | TIM_CR1_CEN", "TIM_CR1_CEN"),
-    (CAPTURE, "&config->tim->CCR1", "&config->tim->CCR2"),
+    (CAPTURE, "config.tim->CCR1", "config.tim->CCR2"),
     (CAPTURE, "KEEL_DMA_HALF_WORD);", "KEEL_DMA_BYTE);"),
     (CAPTURE, "#define WRAP 0x10000u", "#define WRAP 0x1000u"),
     (CAPTURE, "(uint32_t)now - capture->last) % WRAP", "(uint32_t)capture->last - now) % WRAP"),

@@ -232,7 +232,7 @@ def test_what_is_broken_is_named_and_the_rest_runs(
 @pytest.mark.parametrize(("broken", "status"), [("", 0), ("third-sensor", 5)])
 def test_a_third_unit_is_read(tools: Toolchain, images: Path, broken: str, status: int) -> None:
     """As well as the others; and when it is missing, it is named."""
-    chip = run(tools, images, "cuav_v5", 1.4, broken)
+    chip = run(tools, images, "cuav_v5", 1.8, broken)
     for number, told in (1, 0), (2, 0), (3, status):
         assert f"imu {number} status {told}\r\n" in chip.text
     (report,) = reports(chip)
