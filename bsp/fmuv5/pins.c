@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What flight controllers after the Pixhawk standard FMUv5 have in common; variant.c has the rest. */
+/* Common to flight controllers after the Pixhawk standard FMUv5; variant.c has the rest. */
 #include "board.h"
 #include "stm32f767/target/chip.h"
 

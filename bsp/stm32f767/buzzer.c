@@ -16,7 +16,7 @@ static void take_over(keel_tim_t *tim)
 }
 
 /* Low from now on; a tone that follows begins with a whole period. */
-static void silence(keel_tim_t *tim)
+static void fall_silent(keel_tim_t *tim)
 {
     tim->CCR1 = 0u;
     take_over(tim);
@@ -25,7 +25,7 @@ static void silence(keel_tim_t *tim)
 /* Half of each period high. */
 static void sound(keel_tim_t *tim, const keel_tone_t *tone)
 {
-    silence(tim);
+    fall_silent(tim);
     if ((tone->hz >= KEEL_BUZZER_MIN_HZ) && (tone->hz <= KEEL_BUZZER_MAX_HZ)) {
         const uint32_t ticks = (TICK_HZ + (tone->hz / 2u)) / tone->hz;
 
@@ -48,7 +48,7 @@ keel_bsp_status_t keel_buzzer_start(keel_buzzer_t *buzzer, keel_tim_t *tim, uint
     tim->ARR = SILENT_TICK - 1u;
     tim->CCMR1 = FIELD(TIM_CCMR1_OC1M, PWM_MODE_1) | TIM_CCMR1_OC1PE;
     tim->CCER = TIM_CCER_CC1E;
-    silence(tim);
+    fall_silent(tim);
     tim->CR1 = TIM_CR1_ARPE | TIM_CR1_CEN;
     return KEEL_BSP_OK;
 }
@@ -61,7 +61,7 @@ void keel_buzzer_play(keel_buzzer_t *buzzer, const keel_tone_t *tones, uint32_t 
     if (count > 0u) {
         sound(buzzer->tim, tones);
     } else {
-        silence(buzzer->tim);
+        fall_silent(buzzer->tim);
     }
 }
 

@@ -8,23 +8,24 @@
 #define TICK_HZ        1000000u
 #define WRAP           0x10000u /* The timer's 16 bits, in us. */
 #define HALF_WRAP      0x8000u
-#define DIRECT_INPUT   1u /* CC1S: channel 1 captures at its own pin. */
+#define DIRECT_INPUT   1u  /* CC1S: channel 1 captures at its own pin. */
 #define SLOWEST_FILTER 15u /* IC1F: 8 samples that agree, each 32 clocks of the filter apart. */
 #define QUARTER_CLOCK  2u  /* CKD: a clock of the filter is four of the timer's. */
 
-static keel_dma_ring_t ring_of(const keel_capture_config_t *config)
+static keel_dma_ring_t stream_of_edges(const keel_capture_config_t *config)
 {
     return (keel_dma_ring_t){config->dma, config->stream, config->channel};
 }
 
 /* Captures go round the ring, from its beginning. The stream is off. */
-static void begin_stream(keel_capture_t *capture)
+static void begin_edges(keel_capture_t *capture)
 {
-    const keel_dma_ring_t ring = ring_of(&capture->config);
+    const keel_dma_ring_t ring = stream_of_edges(&capture->config);
 
     capture->head = 0u;
     capture->tail = 0u;
-    keel_dma_ring_begin(&ring, &capture->config.tim->CCR1, &capture->ring[0], KEEL_CAPTURE_CAPACITY,
+    keel_dma_ring_begin(&ring, &capture->config.tim->CCR1,
+                        (const volatile uint8_t *)&capture->ring[0], KEEL_CAPTURE_CAPACITY,
                         KEEL_DMA_HALF_WORD);
 }
 
@@ -45,7 +46,7 @@ static void begin_timer(keel_tim_t *tim, uint32_t prescaler)
 keel_bsp_status_t keel_capture_start(keel_capture_t *capture, const keel_capture_config_t *config,
                                      uint32_t now_us)
 {
-    const keel_dma_ring_t ring = ring_of(config);
+    const keel_dma_ring_t ring = stream_of_edges(config);
     uint32_t prescaler;
 
     if (!keel_dma_ring_is_valid(&ring) ||
@@ -62,7 +63,7 @@ keel_bsp_status_t keel_capture_start(keel_capture_t *capture, const keel_capture
     capture->look_us = now_us;
     capture->quiet_us = 0u;
     capture->has_last = false;
-    begin_stream(capture);
+    begin_edges(capture);
     begin_timer(config->tim, prescaler);
     return KEEL_BSP_OK;
 }
@@ -121,9 +122,9 @@ static void forget_edges(keel_capture_t *capture, uint32_t came, uint32_t passed
 
 /* DMA counts an edge some cycles before it lies in the ring, as a byte of a receiver. Its time is
  * read here, so a look begins with the count and goes on to another register of a peripheral. */
-static void look_at_ring(keel_capture_t *capture, uint32_t passed_us)
+static void look_at_edges(keel_capture_t *capture, uint32_t passed_us)
 {
-    const keel_dma_ring_t ring = ring_of(&capture->config);
+    const keel_dma_ring_t ring = stream_of_edges(&capture->config);
     const uint32_t place = KEEL_CAPTURE_CAPACITY - keel_dma_ring_left(&ring);
     const uint32_t status = capture->config.tim->SR;
     const uint32_t came = (place - capture->head) % KEEL_CAPTURE_CAPACITY;
@@ -143,27 +144,27 @@ static void look_at_ring(keel_capture_t *capture, uint32_t passed_us)
 }
 
 /* An error of the bus has stopped the stream. Should it not be off yet, the next look finds it. */
-static void recover_stream(keel_capture_t *capture, uint32_t passed_us)
+static void recover_edges(keel_capture_t *capture, uint32_t passed_us)
 {
-    const keel_dma_ring_t ring = ring_of(&capture->config);
+    const keel_dma_ring_t ring = stream_of_edges(&capture->config);
 
     forget_edges(capture, 0u, passed_us);
     if (keel_dma_ring_is_off(&ring)) {
         capture->count.transfers = keel_progress_next(capture->count.transfers);
-        begin_stream(capture);
+        begin_edges(capture);
     }
 }
 
 void keel_capture_turn(keel_capture_t *capture, uint32_t now_us)
 {
     const uint32_t passed_us = now_us - capture->look_us;
-    const keel_dma_ring_t ring = ring_of(&capture->config);
+    const keel_dma_ring_t ring = stream_of_edges(&capture->config);
 
     capture->look_us = now_us;
     if (keel_dma_ring_failed(&ring)) {
-        recover_stream(capture, passed_us);
+        recover_edges(capture, passed_us);
     } else {
-        look_at_ring(capture, passed_us);
+        look_at_edges(capture, passed_us);
     }
 }
 

@@ -4,7 +4,7 @@
  * @brief The times of rising edges at a timer's input, for PPM: the timer captures each, DMA writes
  *        it into a ring, the main loop looks at how far that came, and tasks read them.
  *
- * Nothing waits and nothing interrupts. The timer counts microseconds, and the time from one edge to
+ * Nothing waits and nothing interrupts. The timer counts microseconds, and the time from an edge to
  * the next is right to the microsecond however late a look comes: what the timer's 16 bits leave
  * open, whole 65 536 us, the clock of the looks tells. That holds while looks are
  * KEEL_CAPTURE_TRUSTED_US apart at most; after a longer time edges are forgotten, and the next one
@@ -12,8 +12,8 @@
  *
  * The timer's filter takes no level that lasts for less than 4.7 us, at its clock of 216 MHz.
  *
- * More than KEEL_CAPTURE_TRUSTED edges from look to look are noise: PPM has one each 800 us. Of more
- * than the ring holds, some are lost without a word.
+ * More than KEEL_CAPTURE_TRUSTED edges from look to look are noise: PPM has one each 800 us. Of
+ * more than the ring holds, some are lost without a word.
  *
  * A capture must lie in DTCM (KEEL_REALTIME_ZERO), as receiver.h says of receivers.
  *

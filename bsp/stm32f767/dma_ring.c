@@ -48,7 +48,7 @@ bool keel_dma_ring_stop(const keel_dma_ring_t *ring, const keel_wait_t *wait)
 }
 
 void keel_dma_ring_begin(const keel_dma_ring_t *ring, const volatile uint32_t *from,
-                         const volatile void *to, uint32_t count, keel_dma_size_t size)
+                         const volatile uint8_t *to, uint32_t count, keel_dma_size_t size)
 {
     keel_dma_stream_t *const stream = stream_of(ring);
 

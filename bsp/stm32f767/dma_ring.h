@@ -50,7 +50,7 @@ bool keel_dma_ring_stop(const keel_dma_ring_t *ring, const keel_wait_t *wait);
  * @param size  of a piece
  */
 void keel_dma_ring_begin(const keel_dma_ring_t *ring, const volatile uint32_t *from,
-                         const volatile void *to, uint32_t count, keel_dma_size_t size);
+                         const volatile uint8_t *to, uint32_t count, keel_dma_size_t size);
 
 /** Pieces to the ring's end: as many as it has at its beginning. */
 uint32_t keel_dma_ring_left(const keel_dma_ring_t *ring);

@@ -5,9 +5,9 @@
 #include "stm32f767/dma_ring.h"
 #include "stm32f767/serial.h"
 
-#define TWO_STOPS      2u  /* The code for two stop bits. */
-#define PLAIN_BITS     10u /* Start, data and one stop. */
-#define US_PER_SECOND  1000000u
+#define TWO_STOPS     2u  /* The code for two stop bits. */
+#define PLAIN_BITS    10u /* Start, data and one stop. */
+#define US_PER_SECOND 1000000u
 
 /* Clearing bits have the places of the flags. */
 #define ALL_ERRORS (UART_ISR_PE | UART_ISR_FE | UART_ISR_NF | UART_ISR_ORE)

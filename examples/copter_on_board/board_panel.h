@@ -10,8 +10,8 @@
  * turn the button does nothing.
  *
  * The buzzer plays a tune at the start, when an attempt to arm is refused, while a radio that was
- * heard is lost, and while the battery is low. A tune waits for no other one of less weight: that of
- * the battery has the most, then that of the radio. The parameter BUZZER silences all.
+ * heard is lost, and while the battery is low. A tune waits for no other one of less weight: that
+ * of the battery has the most, then that of the radio. The parameter BUZZER silences all.
  */
 #ifndef COPTER_BOARD_PANEL_H
 #define COPTER_BOARD_PANEL_H

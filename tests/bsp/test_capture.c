@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Unit tests of bsp/stm32f767/capture.h. The test is the timer and the DMA: it writes what the timer
- * counts into the ring, and counts down. Register contents are from RM0410, 8.5 and 25.4. */
+/* Unit tests of bsp/stm32f767/capture.h. The test is the timer and the DMA: it writes what the
+ * timer counts into the ring, and counts down. Register contents are from RM0410, 8.5 and 25.4. */
 #include "keel/middleware/ppm.h"
 #include "stm32f767/capture.h"
 #include "unity.h"
@@ -173,8 +173,8 @@ static void CAP_003_times_do_not_depend_on_looks(void)
 /* PPM's longest gaps are below 65 ms, but a radio that was lost comes back after any time. */
 static void CAP_003_whole_wraps_of_the_timer(void)
 {
-    static const uint32_t gap_us[] = {1u,      800u,    32767u,  32768u,  32769u,  65535u,
-                                      65536u,  65537u,  98303u,  98304u,  98305u,  131071u,
+    static const uint32_t gap_us[] = {1u,      800u,    32767u,  32768u,  32769u,     65535u,
+                                      65536u,  65537u,  98303u,  98304u,  98305u,     131071u,
                                       131072u, 131073u, 655360u, 999999u, 3600000000u};
     static const uint32_t before_us[] = {0u, 20000u};
 

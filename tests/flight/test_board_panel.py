@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a person beside an FMUv5 presses, sees and hears, on the model of its chip: the safety switch,
-and the buzzer."""
+"""What a person beside an FMUv5 presses, sees and hears, on the model of its chip: the safety
+switch, and the buzzer."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ __all__ = ["tools"]  # A fixture.
 # The panel by itself, by the clock: the switch is used from 0.5 to 9.5 s, and motors turn from 5 to
 # 6.5 s. Says when motors may start, or no longer. Attempts to arm are made at 1 s, when it is
 # refused, and at 5 s, when motors turn. The radio is heard from 0.8 s on and not from 2 to 5 s; the
-# battery is low from 3 to 4 s. The buzzer is silenced from 7 to 8 s, within the tune of a second time
-# without a radio, which goes on to 9 s.
+# battery is low from 3 to 4 s. The buzzer is silenced from 7 to 8 s, within the tune of a second
+# time without a radio, which goes on to 9 s.
 PANELLER = """\
 #include "board.h"
 #include "../copter_on_board/board_panel.h"
@@ -124,8 +124,8 @@ def check_switch(chip: Chip) -> None:
         assert abs(ms - expected) <= 8, told  # A turn takes some milliseconds here.
 
 
-# It blinks by halves of a second from 0.5 s on, and shines from 3.02 s on, when it becomes ready, at
-# the beginning of a dark half. That ends within a dark half, too, as does the last hold.
+# It blinks by halves of a second from 0.5 s on, and shines from 3.02 s on, when it becomes ready,
+# at the beginning of a dark half. That ends within a dark half, too, as does the last hold.
 LIGHT_S = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.02, 8.02, 8.5, 9.0, 9.32, 9.5)
 
 
@@ -199,7 +199,7 @@ MISTAKES = (
     (PANEL, "keel_timer_hz(KEEL_CORE_HZ, apb2)", "keel_timer_hz(KEEL_CORE_HZ, apb2) / 2u"),
     (PANEL, "keel_chip_give(*PINS->buzzer, KEEL_PULL_DOWN);", ""),
     (BUZZER_FILE, "tim->CCER = TIM_CCER_CC1E;", "tim->CCER = TIM_CCER_CC2E;"),
-    (BUZZER_FILE, "silence(tim);\n if ((tone->hz >=", "if ((tone->hz >="),
+    (BUZZER_FILE, "fall_silent(tim);\n if ((tone->hz >=", "if ((tone->hz >="),
     (OWN, "panel->is_greeted = true;", ""),
     (OWN, "panel->could_try && !shown->can_try && !shown->motors", "!shown->can_try"),
     (OWN, "panel->was_linked && !shown->is_linked", "!shown->is_linked"),

@@ -83,8 +83,8 @@ def builder_of(tools: Toolchain, root: Path, folder: str) -> firmware.Builder:
 
 
 def hear(tools: Toolchain, builder: firmware.Builder) -> Chip:
-    """Frames from 20 ms on, between the sixth and the seventh a pause of a wrap of the timer, and in
-    each a disturbance of 2 us."""
+    """Frames from 20 ms on, between the sixth and the seventh a pause of a wrap of the timer, and
+    in each a disturbance of 2 us."""
     image = builder.link("keel", builder.objects(["examples/edger"]))
     chip = Chip(WIRINGS["fmuv5"], "", [])
     chip.step_us = STEP_US
@@ -98,8 +98,8 @@ def hear(tools: Toolchain, builder: firmware.Builder) -> Chip:
 
 
 def check(chip: Chip) -> None:
-    """The decoder wants two right frames in a row, and a gap before: so none of the first, nor of the
-    two around the pause, which is no gap of PPM that it believes."""
+    """The decoder wants two right frames in a row, and a gap before: so none of the first, nor of
+    the two around the pause, which is no gap of PPM that it believes."""
     assert "ppm status 0\r\n" in chip.text
     found = re.findall(r"(?m)^channels ([ \d]+)\r$", chip.text)
     assert FRAMES - 5 <= len(found) <= FRAMES - 2, chip.text
@@ -116,6 +116,7 @@ def test_channels_come_as_they_were_sent(tools: Toolchain, sources: Path) -> Non
 
 
 LINES, CAPTURE = "bsp/stm32f767/target/lines.c", "bsp/stm32f767/capture.c"
+GIVEN = "keel_chip_give(*PINS->ppm, KEEL_PULL_UP)"
 MISTAKES = (
     (PINS, "KEEL_PPM(I, 5u, 3u, TIM8, CH1)", "KEEL_PPM(I, 6u, 3u, TIM8, CH2)"),
     (PINS, "KEEL_PPM(I, 5u, 3u, TIM8, CH1)", "KEEL_PPM(I, 5u, 2u, TIM8, CH1)"),
@@ -124,9 +125,9 @@ MISTAKES = (
     (LINES, "keel_bits_enable(&RCC->AHB1ENR, RCC_AHB1ENR_DMA2EN);", ""),
     (LINES, "#define PPM_STREAM 2u", "#define PPM_STREAM 3u"),
     (LINES, "#define PPM_CHANNEL 7u", "#define PPM_CHANNEL 0u"),
-    (LINES, "keel_chip_give(*PINS->ppm, KEEL_PULL_UP)", "keel_chip_give(*PINS->ppm, KEEL_PULL_DOWN)"),
-    (LINES, "keel_chip_give(*PINS->ppm, KEEL_PULL_UP)", "keel_chip_give(*PINS->ppm, KEEL_PULL_NONE)"),
-    (LINES, "keel_chip_give(*PINS->ppm, KEEL_PULL_UP);", ""),
+    (LINES, GIVEN, GIVEN.replace("UP", "DOWN")),
+    (LINES, GIVEN, GIVEN.replace("UP", "NONE")),
+    (LINES, f"{GIVEN};", ""),
     (LINES, "keel_timer_hz(KEEL_CORE_HZ, apb2)", "keel_timer_hz(KEEL_CORE_HZ, apb2) / 2u"),
     (LINES, "keel_capture_t capture KEEL_REALTIME_ZERO;", "keel_capture_t capture;"),
     (CAPTURE, "tim->EGR = TIM_EGR_UG; /* Takes the prescaler over. */", ""),

@@ -75,7 +75,13 @@ class CaptureTest(unittest.TestCase):
         self.assertEqual(self.ring()[0], 1000)
 
     def test_nothing_comes_unless_all_is_set(self) -> None:
-        for changed in ({"CCER": 0}, {"CCER": 16}, {"CCMR1": 0xF0}, {"CCMR1": 0xF2}, {"CR1": 0x200}):
+        for changed in (
+            {"CCER": 0},
+            {"CCER": 16},
+            {"CCMR1": 0xF0},
+            {"CCMR1": 0xF2},
+            {"CR1": 0x200},
+        ):
             self.setUp()
             self.begin(**changed)
             self.capture.send(1000, [])

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file tim.h
- * @brief Timers 1 and 8 (advanced, RM0410 chapter 25), 4 and 5 (chapter 26, 5 of 32 bits), and 9 and
- *        12 (two channels, chapter 27).
+ * @brief Timers 1 and 8 (advanced, RM0410 chapter 25), 4 and 5 (chapter 26, 5 of 32 bits), and 9
+ *        and 12 (two channels, chapter 27).
  *
  * Timers 4 and 5 have neither RCR nor BDTR; timers 9 and 12 have neither these nor CR2, CCMR2, CCR3
  * and CCR4.

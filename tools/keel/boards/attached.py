@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Peripherals of the chip that are models of their own: an I2C, UARTs, a timer that captures, and the
-DMA behind them."""
+"""Peripherals of the chip that are models of their own: an I2C, UARTs, a timer that captures, and
+the DMA behind them."""
 
 from __future__ import annotations
 

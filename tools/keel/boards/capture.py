@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A model of a timer of the STM32F767 whose channel 1 captures edges, of the stream of DMA that moves
-them, and of a receiver of PPM that only pulls its line low.
+"""A model of a timer of the STM32F767 whose channel 1 captures edges, of the stream of DMA that
+moves them, and of a receiver of PPM that only pulls its line low.
 
 By the reference manual (RM0410, chapters 8 and 25): an edge is captured where the registers say so,
 and the stream must be set up as it says.
@@ -35,7 +35,7 @@ OWN = (2, 2, 7)  # DMA, stream and channel that hear channel 1 (RM0410, table 28
 HALF_WORDS = 1 << 11 | 1 << 13
 ON, CHANNEL_ON, FALLING, DMA_ASKED, TAKEN, OVER = 1, 1, 2, 1 << 9, 1 << 1, 1 << 9
 DIRECT = 1  # CC1S.
-# Samples that must agree, and the divider of the filter's clock, by IC1F; below 4 it is the timer's.
+# Samples that must agree, and the divider of the filter's clock, by IC1F.
 FILTERS = (
     *((1, 1), (2, 1), (4, 1), (8, 1), (6, 2), (8, 2), (6, 4), (8, 4)),
     *((6, 8), (8, 8), (5, 16), (6, 16), (8, 16), (5, 32), (6, 32), (8, 32)),
@@ -73,8 +73,8 @@ class Capture:
     # Who sends.
 
     def send(self, at_us: float, channels_us: Sequence[int], period_us: int = 22_500) -> None:
-        """A frame of PPM that begins at a time: an edge, and one behind each channel. The gap to the
-        next frame is what is left of the period."""
+        """A frame of PPM that begins at a time: an edge, and one behind each channel. The gap to
+        the next frame is what is left of the period."""
         assert sum(channels_us) + 2500 <= period_us
         for channel_us in (*channels_us, 0):
             insort(self._coming, Edge(at_us, LOW_US))

@@ -91,7 +91,8 @@ OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and lock
 CORE_MHZ = 216
 I2C_FUNCTION = 4  # Of the pins of I2C 3.
 PPM_FUNCTION = 3  # Of the pin that timer 8 captures at.
-SENSORS = ("sensor", "other-sensor", "second-sensor", "third-sensor")  # Without the first, or another, …
+# Without the first, with another one in its place, …
+SENSORS = ("sensor", "other-sensor", "second-sensor", "third-sensor")
 BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", "magnetometer", *SENSORS)
 
 
@@ -472,7 +473,7 @@ class Chip:
         return self.words.get(base + 0x20 + 4 * (number // 8), 0) >> 4 * (number % 8) & 0xF
 
     def _is_pulled_up(self, pin: tuple[int, int], function: int) -> bool:
-        """Whether a pin has an alternate function, and a pull-up: who only pulls it low is heard."""
+        """Whether a pin has an alternate function, and a pull-up for who only pulls it low."""
         pull = self.words.get(GPIOA + 0x400 * pin[0] + 0xC, 0) >> 2 * pin[1] & 3
         return pull == 1 and self._function_of(pin) == function
 

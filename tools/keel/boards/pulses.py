@@ -120,7 +120,8 @@ def timers() -> dict[str, Timer]:
     }
 
 
-FUNCTIONS = {"TIM1": 1, "TIM4": 2, "TIM12": 9, "TIM9": 3}  # That give a pin to each (data sheet, table 13).
+# That give a pin to each (data sheet, table 13).
+FUNCTIONS = {"TIM1": 1, "TIM4": 2, "TIM12": 9, "TIM9": 3}
 
 
 class Outputs:

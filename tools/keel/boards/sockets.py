@@ -69,7 +69,7 @@ def pins_in(text: str) -> list[str]:
 
 def channels_in(line: re.Pattern[str], text: str) -> list[str]:
     """Pins with their timers' channels."""
-    return [f"P{port}{number} {timer}_{channel}" for port, number, timer, channel in line.findall(text)]
+    return [f"P{port}{number} {timer}_{name}" for port, number, timer, name in line.findall(text)]
 
 
 def stated(text: str) -> dict[str, list[str]]:
