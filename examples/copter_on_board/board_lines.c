@@ -131,10 +131,11 @@ static bool read_edge(copter_byte_t *byte)
 
 bool board_lines_read(board_lines_t *lines, uint32_t receiver, copter_byte_t *byte)
 {
-    const keel_chip_line_t name = (receiver == COPTER_RC) ? lines->socket : KEEL_LINE_SATELLITES;
+    const bool is_pilot = (receiver == COPTER_RC);
+    const keel_chip_line_t name = is_pilot ? lines->socket : KEEL_LINE_SATELLITES;
     keel_receiver_byte_t come;
 
-    if ((receiver == COPTER_RC) && lines->by_edges) {
+    if (is_pilot && lines->by_edges) {
         return read_edge(byte);
     }
     if (!keel_chip_line_read(name, &come)) {
