@@ -10,7 +10,7 @@ from keel.boards.dma_uart import COMPLETE, EN, FCR, HALF, M0AR, NDTR, PAR, STREA
 from keel.boards.pulses import ARR, CCER, CCMR1, CCR1, CR1, DIER, EGR, PSC, SR
 
 RING, SIZE = 0x2000_1000, 4
-# By the reference manual: channel 7, high priority, half words at both ends, memory counts, circular.
+# RM0410: channel 7, high priority, half words at both ends, memory counts, circular.
 RING_OF_EDGES = 7 << 25 | 2 << 16 | 1 << 13 | 1 << 11 | 1 << 10 | 1 << 8
 REQUEST, TAKEN, OVER = 1 << 9, 1 << 1, 1 << 9
 

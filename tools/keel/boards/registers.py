@@ -15,9 +15,9 @@ fetched with their checksums and read as data:
 A fact without a counterpart is a difference, unless specs/registers.toml says with a reason why it
 has none, or what the database calls it. An entry there that nothing needs is a difference too.
 The signals of the boards' pins (bsp/*/pins.c, bsp/*/variant.c) and what the boards' files say of
-memories and interrupts (bsp/*/board.toml, and their base) are compared as well. Which pin comes out at which
-socket, and which supply a pin switches, no database of a chip can know: that is compared with
-specs/outputs.toml, which has it from others' firmware.
+memories and interrupts (bsp/*/board.toml, and their base) are compared as well. Which pin comes
+out at which socket, and which supply a pin switches, no database of a chip can know: that is
+compared with specs/outputs.toml, which has it from others' firmware.
 
 build/registers/report.json has every fact. Exit status: 0 without differences, 1 with, 2 when
 nothing could be compared.
