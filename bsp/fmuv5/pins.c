@@ -1,18 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A flight controller after the Pixhawk standard FMUv5. */
+/* Common to flight controllers after the Pixhawk standard FMUv5; variant.c has the rest. */
 #include "board.h"
 #include "stm32f767/target/chip.h"
-
-const char keel_board_name[] = "fmuv5";
-
-/* What Pixhawk 4 and 4 Mini carry. CUAV V5 has an ICM-20602 besides, which stays silent here. */
-static const keel_board_inertial_t inertial[] = {
-    KEEL_INERTIAL(ICM20689, F, 2u, 2, 1, -3),
-    KEEL_INERTIAL_PAIR(BMI055, F, 4u, G, 10u, 2, 1, -3),
-};
-
-/* What else may be at their bus: the ICM-20602, and the connector for a memory. */
-static const keel_pin_t others[] = {KEEL_PIN(F, 3u), KEEL_PIN(H, 5u)};
 
 /* FMU_CH1 to FMU_CH8; with an IO processor on the board these are its auxiliary outputs. */
 static const keel_pwm_output_t outputs[] = {
@@ -34,6 +23,9 @@ static const keel_level_t levels[] = {
 };
 
 static const keel_pin_t armed = KEEL_ARMED(I, 0u);
+
+/* Of the button in a satellite receiver's case. An IO processor reads it, and drives its light. */
+static const keel_board_safety_t safety = KEEL_SAFETY(E, 10u, E, 12u);
 
 /* The power modules' connectors, whose modules divide the battery's voltage by 18.1 and give a volt
  * for 36.4 A (PX4's board configuration of px4/fmu-v5); and the board's own supplies. */
@@ -74,6 +66,11 @@ static const keel_board_magnetometer_t magnetometer = {
     .mounting = KEEL_MAGNETOMETER(2, 1, -3),
 };
 
+/* Beside the socket of the pilot's receiver, where the board has one of its own. */
+static const keel_alternate_t ppm = KEEL_PPM(I, 5u, 3u, TIM8, CH1);
+
+static const keel_alternate_t buzzer = KEEL_BUZZER(E, 5u, 3u, TIM9, CH1);
+
 const keel_board_pins_t keel_board_pins = {
     .oscillator = {16000000u, false},
     .console = (keel_uart_t *)UART7_BASE,
@@ -91,16 +88,15 @@ const keel_board_pins_t keel_board_pins = {
     .sck = KEEL_ALTERNATE(G, 11u, 5u, SPI1, SCK),
     .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO),
     .mosi = KEEL_ALTERNATE(D, 7u, 5u, SPI1, MOSI),
-    .inertial = inertial,
-    .inertial_count = 2u,
-    .deselect = others,
-    .deselect_count = 2u,
     .analogue = analogue,
     .analogue_count = KEEL_ANALOGUES,
     .card = &slot,
     .memory = &fram,
     .barometer = &barometer,
     .magnetometer = &magnetometer,
+    .safety = &safety,
+    .ppm = &ppm,
+    .buzzer = &buzzer,
     .lines = {[KEEL_LINE_PILOT] = {KEEL_UART(USART6, APB2, DMA2, 1u, 5u),
                                    .rx = KEEL_ALTERNATE(G, 9u, 8u, USART6, RX)},
               [KEEL_LINE_SPARE] = {KEEL_UART(USART3, APB1, DMA1, 1u, 4u),

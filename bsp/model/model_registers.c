@@ -512,6 +512,8 @@ static const model_registers_t peripherals[] = {
     {SDMMC1_BASE, sizeof(keel_sdmmc_t), read_slot, write_slot},
     {TIM4_BASE, 0x54u, NULL, NULL},
     {TIM12_BASE, 0x54u, NULL, NULL},
+    {TIM8_BASE, 0x68u, NULL, NULL},
+    {TIM9_BASE, 0x54u, NULL, NULL},
     {FLASH_BASE, sizeof(keel_flash_t), NULL, NULL},
     {DBGMCU_BASE, 0x10u, NULL, NULL},
     {NVIC, 0x200u, NULL, NULL},

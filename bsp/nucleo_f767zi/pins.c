@@ -17,6 +17,9 @@ static const keel_pwm_output_t outputs[] = {
 /* At D10; its x is forward and its z upwards. */
 static const keel_board_inertial_t inertial[] = {KEEL_INERTIAL(ICM20689, D, 14u, 1, -2, -3)};
 
+const keel_board_units_t keel_board_units = {
+    .unit = inertial, .count = 1u, .deselect = NULL, .deselect_count = 0u};
+
 const keel_board_pins_t keel_board_pins = {
     .oscillator = {8000000u, true}, /* From the ST-LINK. */
     .console = (keel_uart_t *)USART3_BASE,
@@ -33,10 +36,6 @@ const keel_board_pins_t keel_board_pins = {
     .sck = KEEL_ALTERNATE(A, 5u, 5u, SPI1, SCK),   /* D13. */
     .miso = KEEL_ALTERNATE(A, 6u, 5u, SPI1, MISO), /* D12. */
     .mosi = KEEL_ALTERNATE(A, 7u, 5u, SPI1, MOSI), /* D11; JP6 off, it is Ethernet's too. */
-    .inertial = inertial,
-    .inertial_count = 1u,
-    .deselect = NULL,
-    .deselect_count = 0u,
     .analogue = NULL,
     .analogue_count = 0u,
     .card = NULL,

@@ -2,18 +2,12 @@
 #include "stm32f767/receiver.h"
 
 #include "common/progress.h"
+#include "stm32f767/dma_ring.h"
 #include "stm32f767/serial.h"
 
-#define STREAM_MAX     7u
-#define CHANNEL_MAX    15u
-#define PRIORITY       2u  /* High, of four: bytes of a line cannot wait. */
-#define TWO_STOPS      2u  /* The code for two stop bits. */
-#define PLAIN_BITS     10u /* Start, data and one stop. */
-#define US_PER_SECOND  1000000u
-#define STREAMS_A_WORD 4u /* Whose flags share a register. */
-
-#define ALL_FLAGS                                                                                  \
-    (DMA_LIFCR_CFEIF0 | DMA_LIFCR_CDMEIF0 | DMA_LIFCR_CTEIF0 | DMA_LIFCR_CHTIF0 | DMA_LIFCR_CTCIF0)
+#define TWO_STOPS     2u  /* The code for two stop bits. */
+#define PLAIN_BITS    10u /* Start, data and one stop. */
+#define US_PER_SECOND 1000000u
 
 /* Clearing bits have the places of the flags. */
 #define ALL_ERRORS (UART_ISR_PE | UART_ISR_FE | UART_ISR_NF | UART_ISR_ORE)
@@ -22,17 +16,9 @@ const keel_line_t keel_line_sbus = {100000u, true, true, true};
 const keel_line_t keel_line_crsf = {420000u, false, false, false};
 const keel_line_t keel_line_115200 = {115200u, false, false, false};
 
-static keel_dma_stream_t *stream_of(const keel_receiver_config_t *config)
+static keel_dma_ring_t ring_of(const keel_receiver_config_t *config)
 {
-    return &config->dma->stream[config->stream];
-}
-
-/* Flags of stream 0, where the stream has them in its register (RM0410, 8.5.1). */
-static uint32_t flags_of(const keel_receiver_config_t *config, uint32_t flags)
-{
-    static const uint32_t flag_places[STREAMS_A_WORD] = {0u, 6u, 16u, 22u};
-
-    return flags << flag_places[config->stream % STREAMS_A_WORD];
+    return (keel_dma_ring_t){config->dma, config->stream, config->channel};
 }
 
 /* The time of so many bytes, to the nearest microsecond. */
@@ -44,42 +30,15 @@ static uint32_t bytes_time_of(const keel_line_t *line, uint32_t bytes)
     return (uint32_t)((scaled + (line->baud / 2u)) / line->baud);
 }
 
-/* Clears the stream's flags, or it would not start again (RM0410, 8.3.18). */
-static void clear_flags(const keel_receiver_config_t *config)
-{
-    const uint32_t flags = flags_of(config, ALL_FLAGS);
-
-    if (config->stream < STREAMS_A_WORD) {
-        config->dma->LIFCR = flags;
-    } else {
-        config->dma->HIFCR = flags;
-    }
-}
-
-static bool transfer_failed(const keel_receiver_config_t *config)
-{
-    const uint32_t flags = (config->stream < STREAMS_A_WORD) ? config->dma->LISR
-                                                             : config->dma->HISR;
-
-    return (flags & flags_of(config, DMA_LISR_TEIF0)) != 0u;
-}
-
 /* Bytes from the UART go round the ring, from its beginning, each at once. The stream is off. */
 static void begin_stream(keel_receiver_t *receiver)
 {
-    const keel_receiver_config_t *const config = &receiver->config;
-    keel_dma_stream_t *const stream = stream_of(config);
+    const keel_dma_ring_t ring = ring_of(&receiver->config);
 
     receiver->head = 0u;
     receiver->tail = 0u;
-    clear_flags(config);
-    stream->PAR = (uint32_t)(uintptr_t)&config->uart->RDR;
-    stream->M0AR = (uint32_t)(uintptr_t)&receiver->ring[0];
-    stream->NDTR = KEEL_RECEIVER_CAPACITY;
-    stream->FCR = 0u; /* Direct mode. */
-    stream->CR = FIELD(DMA_CR0_CHSEL, config->channel) | FIELD(DMA_CR0_PL, PRIORITY) |
-                 DMA_CR0_MINC | DMA_CR0_CIRC;
-    stream->CR |= DMA_CR0_EN;
+    keel_dma_ring_begin(&ring, &receiver->config.uart->RDR, &receiver->ring[0],
+                        KEEL_RECEIVER_CAPACITY, KEEL_DMA_BYTE);
 }
 
 /* The UART is off, and comes on with DMA behind it, so that no byte waits. */
@@ -97,27 +56,19 @@ static void begin_line(const keel_receiver_config_t *config, uint32_t divisor)
                 (line->even_parity ? (UART_CR1_M0 | UART_CR1_PCE) : 0u);
 }
 
-static bool stop_stream(const keel_receiver_config_t *config)
-{
-    keel_dma_stream_t *const stream = stream_of(config);
-
-    stream->CR &= ~DMA_CR0_EN;
-    return keel_wait_for(&stream->CR, DMA_CR0_EN, 0u, config->wait);
-}
-
 keel_bsp_status_t keel_receiver_start(keel_receiver_t *receiver,
                                       const keel_receiver_config_t *config, uint32_t now_us)
 {
     const keel_line_t *const line = &config->line;
+    const keel_dma_ring_t ring = ring_of(config);
     uint32_t divisor;
 
-    if ((config->stream > STREAM_MAX) || (config->channel > CHANNEL_MAX) ||
-        (line->baud < KEEL_RECEIVER_BAUD_MIN) ||
+    if (!keel_dma_ring_is_valid(&ring) || (line->baud < KEEL_RECEIVER_BAUD_MIN) ||
         (keel_serial_divisor(config->clock_hz, line->baud, &divisor) != KEEL_BSP_OK)) {
         return KEEL_BSP_ARGUMENT;
     }
     config->uart->CR1 = 0u; /* Asks DMA for nothing more, and forgets what came, and its errors. */
-    if (!stop_stream(config)) {
+    if (!keel_dma_ring_stop(&ring, config->wait)) {
         return KEEL_BSP_TIMEOUT;
     }
     receiver->config = *config;
@@ -167,7 +118,8 @@ static void forget_bytes(keel_receiver_t *receiver, uint32_t came, uint32_t pass
  * to other registers of peripherals before anybody reads. */
 static void look_at_ring(keel_receiver_t *receiver, uint32_t passed_us)
 {
-    const uint32_t place = KEEL_RECEIVER_CAPACITY - stream_of(&receiver->config)->NDTR;
+    const keel_dma_ring_t ring = ring_of(&receiver->config);
+    const uint32_t place = KEEL_RECEIVER_CAPACITY - keel_dma_ring_left(&ring);
     const uint32_t came = (place - receiver->head) % KEEL_RECEIVER_CAPACITY;
     const uint32_t unread = (receiver->head - receiver->tail) + came;
 
@@ -183,12 +135,10 @@ static void look_at_ring(keel_receiver_t *receiver, uint32_t passed_us)
 /* An error of the bus has stopped the stream. Should it not be off yet, the next look finds it. */
 static void recover_stream(keel_receiver_t *receiver, uint32_t passed_us)
 {
-    keel_dma_stream_t *const stream = stream_of(&receiver->config);
+    const keel_dma_ring_t ring = ring_of(&receiver->config);
 
     forget_bytes(receiver, 0u, passed_us);
-    if ((stream->CR & DMA_CR0_EN) != 0u) {
-        stream->CR &= ~DMA_CR0_EN;
-    } else {
+    if (keel_dma_ring_is_off(&ring)) {
         receiver->count.transfers = keel_progress_next(receiver->count.transfers);
         begin_stream(receiver);
     }
@@ -219,9 +169,10 @@ static void look_at_errors(keel_receiver_t *receiver)
 void keel_receiver_turn(keel_receiver_t *receiver, uint32_t now_us)
 {
     const uint32_t passed_us = now_us - receiver->look_us;
+    const keel_dma_ring_t ring = ring_of(&receiver->config);
 
     receiver->look_us = now_us;
-    if (transfer_failed(&receiver->config)) {
+    if (keel_dma_ring_failed(&ring)) {
         recover_stream(receiver, passed_us);
     } else {
         look_at_ring(receiver, passed_us);

@@ -46,6 +46,7 @@ static const word_t checks[] = {
     {KEEL_MODE_CHECK_STORAGE, "storage"},
     {KEEL_MODE_CHECK_HOME_POSITION, "no home"},
     {COPTER_CHECK_GROUND_PRESSURE, "pressure not of the ground: an MS5607?"},
+    {COPTER_CHECK_SAFETY_SWITCH, "safety switch at safe, or none"},
 };
 
 static const word_t facts[] = {

@@ -223,6 +223,14 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 10.0f},
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 2.0f},
      .highest = {.type = KEEL_PARAMETER_FLOAT, .real = 100.0f}},
+    {.name = "SAFETY_SWITCH",
+     .initial = {.type = KEEL_PARAMETER_BOOL, .whole = 0},
+     .lowest = {.type = KEEL_PARAMETER_BOOL, .whole = 0},
+     .highest = {.type = KEEL_PARAMETER_BOOL, .whole = 1}},
+    {.name = "BUZZER",
+     .initial = {.type = KEEL_PARAMETER_BOOL, .whole = 1},
+     .lowest = {.type = KEEL_PARAMETER_BOOL, .whole = 0},
+     .highest = {.type = KEEL_PARAMETER_BOOL, .whole = 1}},
     {.name = "FENCE_NORTH",
      .initial = {.type = KEEL_PARAMETER_FLOAT, .real = 100.0f},
      .lowest = {.type = KEEL_PARAMETER_FLOAT, .real = 10.0f},
@@ -475,50 +483,52 @@ void copter_apply_parameters(copter_settings_t *settings, const keel_parameter_e
     settings->mode.idle_us = (uint32_t)entry[48].value.whole;
     settings->mode.return_us = (uint32_t)entry[49].value.whole;
     settings->return_height = entry[50].value.real;
-    settings->cascade.reach[KEEL_CASCADE_NORTH] = entry[51].value.real;
-    settings->cascade.reach[KEEL_CASCADE_EAST] = entry[52].value.real;
-    settings->cascade.reach[KEEL_CASCADE_HEIGHT] = entry[53].value.real;
-    settings->fence_margin = entry[54].value.real;
-    settings->land_fast = entry[55].value.real;
-    settings->land_slow = entry[56].value.real;
-    settings->land_near = entry[57].value.real;
-    settings->accelerometer_hz = entry[58].value.real;
-    settings->gyroscope_hz = entry[59].value.real;
-    settings->attitude.north = entry[60].value.real;
-    settings->attitude.east = entry[61].value.real;
-    settings->position.accuracy = entry[62].value.real;
-    settings->magnetometer.offset[0] = entry[63].value.real;
-    settings->magnetometer.offset[1] = entry[64].value.real;
-    settings->magnetometer.offset[2] = entry[65].value.real;
-    settings->magnetometer.scale[0] = entry[66].value.real;
-    settings->magnetometer.scale[1] = entry[67].value.real;
-    settings->magnetometer.scale[2] = entry[68].value.real;
-    settings->field_per_ampere[0] = entry[69].value.real;
-    settings->field_per_ampere[1] = entry[70].value.real;
-    settings->field_per_ampere[2] = entry[71].value.real;
-    settings->correction[0].offset[0] = entry[72].value.real;
-    settings->correction[0].offset[1] = entry[73].value.real;
-    settings->correction[0].offset[2] = entry[74].value.real;
-    settings->correction[0].scale[0] = entry[75].value.real;
-    settings->correction[0].scale[1] = entry[76].value.real;
-    settings->correction[0].scale[2] = entry[77].value.real;
-    settings->correction[1].offset[0] = entry[78].value.real;
-    settings->correction[1].offset[1] = entry[79].value.real;
-    settings->correction[1].offset[2] = entry[80].value.real;
-    settings->correction[1].scale[0] = entry[81].value.real;
-    settings->correction[1].scale[1] = entry[82].value.real;
-    settings->correction[1].scale[2] = entry[83].value.real;
-    settings->correction[2].offset[0] = entry[84].value.real;
-    settings->correction[2].offset[1] = entry[85].value.real;
-    settings->correction[2].offset[2] = entry[86].value.real;
-    settings->correction[2].scale[0] = entry[87].value.real;
-    settings->correction[2].scale[1] = entry[88].value.real;
-    settings->correction[2].scale[2] = entry[89].value.real;
-    settings->trim[0] = entry[90].value.real;
-    settings->trim[1] = entry[91].value.real;
-    settings->board[0] = entry[92].value.real;
-    settings->board[1] = entry[93].value.real;
-    settings->board[2] = entry[94].value.real;
-    settings->system = (uint8_t)entry[95].value.whole;
+    settings->safety_switch = entry[51].value.whole != 0;
+    settings->buzzer = entry[52].value.whole != 0;
+    settings->cascade.reach[KEEL_CASCADE_NORTH] = entry[53].value.real;
+    settings->cascade.reach[KEEL_CASCADE_EAST] = entry[54].value.real;
+    settings->cascade.reach[KEEL_CASCADE_HEIGHT] = entry[55].value.real;
+    settings->fence_margin = entry[56].value.real;
+    settings->land_fast = entry[57].value.real;
+    settings->land_slow = entry[58].value.real;
+    settings->land_near = entry[59].value.real;
+    settings->accelerometer_hz = entry[60].value.real;
+    settings->gyroscope_hz = entry[61].value.real;
+    settings->attitude.north = entry[62].value.real;
+    settings->attitude.east = entry[63].value.real;
+    settings->position.accuracy = entry[64].value.real;
+    settings->magnetometer.offset[0] = entry[65].value.real;
+    settings->magnetometer.offset[1] = entry[66].value.real;
+    settings->magnetometer.offset[2] = entry[67].value.real;
+    settings->magnetometer.scale[0] = entry[68].value.real;
+    settings->magnetometer.scale[1] = entry[69].value.real;
+    settings->magnetometer.scale[2] = entry[70].value.real;
+    settings->field_per_ampere[0] = entry[71].value.real;
+    settings->field_per_ampere[1] = entry[72].value.real;
+    settings->field_per_ampere[2] = entry[73].value.real;
+    settings->correction[0].offset[0] = entry[74].value.real;
+    settings->correction[0].offset[1] = entry[75].value.real;
+    settings->correction[0].offset[2] = entry[76].value.real;
+    settings->correction[0].scale[0] = entry[77].value.real;
+    settings->correction[0].scale[1] = entry[78].value.real;
+    settings->correction[0].scale[2] = entry[79].value.real;
+    settings->correction[1].offset[0] = entry[80].value.real;
+    settings->correction[1].offset[1] = entry[81].value.real;
+    settings->correction[1].offset[2] = entry[82].value.real;
+    settings->correction[1].scale[0] = entry[83].value.real;
+    settings->correction[1].scale[1] = entry[84].value.real;
+    settings->correction[1].scale[2] = entry[85].value.real;
+    settings->correction[2].offset[0] = entry[86].value.real;
+    settings->correction[2].offset[1] = entry[87].value.real;
+    settings->correction[2].offset[2] = entry[88].value.real;
+    settings->correction[2].scale[0] = entry[89].value.real;
+    settings->correction[2].scale[1] = entry[90].value.real;
+    settings->correction[2].scale[2] = entry[91].value.real;
+    settings->trim[0] = entry[92].value.real;
+    settings->trim[1] = entry[93].value.real;
+    settings->board[0] = entry[94].value.real;
+    settings->board[1] = entry[95].value.real;
+    settings->board[2] = entry[96].value.real;
+    settings->system = (uint8_t)entry[97].value.whole;
 }
 /* clang-format on */

@@ -83,6 +83,9 @@ typedef struct copter_port {
     /** Writes what the chip measures of itself, and that it has it; null: it measures nothing. The
         task that asks has 18 us: of two conversions, one a call may be new. */
     void (*read_chip)(void *context, copter_chip_t *chip);
+    /** Whether the safety switch says that motors may start; null: there is none. Asked while the
+        parameter SAFETY_SWITCH says that it is used. */
+    bool (*is_ready)(void *context);
     uint32_t (*stack_free)(void *context); /**< Bytes of the stack that were never used. */
     void (*write_motors)(void *context, const float output[COPTER_MOTORS]); /**< Each 0 to 1. */
     /** How many bytes of the log write_log takes now; what it has no room for stays in the ring. */

@@ -171,7 +171,7 @@ const copter_settings_t copter_defaults = {
                          KEEL_MODE_CHECK_POSITION_ESTIMATE | KEEL_MODE_CHECK_CALIBRATION |
                          KEEL_MODE_CHECK_LEVEL_ATTITUDE | KEEL_MODE_CHECK_BATTERY_LEVEL |
                          KEEL_MODE_CHECK_CPU_LOAD | KEEL_MODE_CHECK_HOME_POSITION |
-                         COPTER_CHECK_GROUND_PRESSURE,
+                         COPTER_CHECK_GROUND_PRESSURE | COPTER_CHECK_SAFETY_SWITCH,
              .returns = true},
     .cascade =
         {.pid = {[KEEL_CASCADE_ROLL_RATE] = PID(0.05f, 0.1f, 0.001f, CONTROL_HZ, 90.0f, 1.0f,
@@ -219,4 +219,5 @@ const copter_settings_t copter_defaults = {
     .stop_s = 0.8f,
     .fence_margin = 2.0f,
     .fence_rate = 0.25f,
+    .buzzer = true,
     .system = 1u};

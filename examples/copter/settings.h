@@ -19,10 +19,14 @@
 #include "keel/middleware/virtual_imu.h"
 #include "rc.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /** A check before arming beside KEEL_MODE_CHECK_: the pressure may be that of the ground. */
 #define COPTER_CHECK_GROUND_PRESSURE 0x1000u
+
+/** Another one: the safety switch is not at safe, or not used. */
+#define COPTER_CHECK_SAFETY_SWITCH 0x2000u
 
 /** How often units vote, in Hz: table 2, foreground IMU. */
 #define COPTER_VOTE_HZ 500.0f
@@ -74,6 +78,8 @@ typedef struct copter_settings {
     float stop_s;            /**< How far it goes on when the sticks are let go: in s. */
     float fence_margin;      /**< The pilot comes so near to the fence, in m. */
     float fence_rate;        /**< Of the way that is left, so much a second, in 1/s. */
+    bool safety_switch;      /**< The board's safety switch is used: at safe it does not arm. */
+    bool buzzer;             /**< The board's buzzer sounds. */
     uint8_t system;          /**< Its number among the vehicles that MAVLink connects. */
 } copter_settings_t;
 

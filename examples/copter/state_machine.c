@@ -4,6 +4,8 @@
 
 #include "keel/middleware/range.h"
 
+#include <stddef.h>
+
 #define UNCONFIRMED_RUNS 25u /* Half a second. */
 
 keel_status_t copter_state_machine_init(copter_state_t *state)
@@ -135,6 +137,13 @@ static bool may_be_of_ground(const copter_barometer_t *barometer)
                                copter_settings.ground_most);
 }
 
+/* A switch that is to be used and is not there never says that it is ready. */
+static bool may_start(const copter_port_t *port)
+{
+    return !copter_settings.safety_switch ||
+           ((port->is_ready != NULL) && port->is_ready(port->context));
+}
+
 static uint32_t checks_of(const copter_t *copter)
 {
     const keel_virtual_imu_t *const imu = &copter->imu.virtual_imu;
@@ -150,7 +159,8 @@ static uint32_t checks_of(const copter_t *copter)
            when(copter->imu.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL_ATTITUDE) |
            when(copter->power.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY_LEVEL) |
            when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME_POSITION) |
-           when(may_be_of_ground(&copter->barometer), COPTER_CHECK_GROUND_PRESSURE);
+           when(may_be_of_ground(&copter->barometer), COPTER_CHECK_GROUND_PRESSURE) |
+           when(may_start(copter->port), COPTER_CHECK_SAFETY_SWITCH);
 }
 
 /* Counts when the aircraft goes out of the fence. */

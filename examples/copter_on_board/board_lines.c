@@ -5,48 +5,55 @@
 
 #include <stddef.h>
 
-#define TRIED       3u  /* Protocols that a UART hears: PPM is none. */
 #define BITS_A_BYTE 10u /* On the telemetry's line. */
 
-/* A protocol with its bits. */
-typedef struct pilot_bits {
+/* A turn of the search: a protocol, and the socket that is listened to with its bits. Of PPM the
+ * bits are edges, and the socket is the pin of its own. */
+typedef struct pilot_turn {
     uint8_t protocol;
-    const keel_line_t *line;
-} pilot_bits_t;
-
-static const pilot_bits_t pilot_bits[TRIED] = {
-    {COPTER_PROTOCOL_SBUS, &keel_line_sbus},
-    {COPTER_PROTOCOL_CRSF, &keel_line_crsf},
-    {COPTER_PROTOCOL_IBUS, &keel_line_115200},
-};
-
-/* The sockets of the pilot's receiver, one after the other. */
-static const keel_chip_line_t pilot_sockets[] = {KEEL_LINE_PILOT, KEEL_LINE_SPARE};
-
-#define SOCKETS (sizeof pilot_sockets / sizeof pilot_sockets[0])
+    const keel_line_t *line; /* Null: PPM. */
+    keel_chip_line_t socket; /* Where there is a line. */
+} pilot_turn_t;
 
 /* All sockets with one protocol's bits, then with the next one's. */
+static const pilot_turn_t pilot_turns[] = {
+    {COPTER_PROTOCOL_SBUS, &keel_line_sbus, KEEL_LINE_PILOT},
+    {COPTER_PROTOCOL_SBUS, &keel_line_sbus, KEEL_LINE_SPARE},
+    {COPTER_PROTOCOL_CRSF, &keel_line_crsf, KEEL_LINE_PILOT},
+    {COPTER_PROTOCOL_CRSF, &keel_line_crsf, KEEL_LINE_SPARE},
+    {COPTER_PROTOCOL_IBUS, &keel_line_115200, KEEL_LINE_PILOT},
+    {COPTER_PROTOCOL_IBUS, &keel_line_115200, KEEL_LINE_SPARE},
+    {COPTER_PROTOCOL_PPM, NULL, KEEL_LINE_PILOT},
+};
+
+#define TURNS ((uint32_t)(sizeof pilot_turns / sizeof pilot_turns[0]))
+
 static void listen_at(board_lines_t *lines, uint32_t turn, uint32_t now_us)
 {
-    lines->turn = turn % (TRIED * (uint32_t)SOCKETS);
+    const pilot_turn_t *const now = &pilot_turns[turn % TURNS];
+
+    lines->turn = turn % TURNS;
     lines->since_us = now_us;
-    lines->socket = pilot_sockets[lines->turn % SOCKETS];
-    lines->pilot = keel_chip_line_start(lines->socket, pilot_bits[lines->turn / SOCKETS].line);
+    lines->socket = now->socket;
+    lines->by_edges = now->line == NULL;
+    lines->pilot = lines->by_edges ? keel_chip_ppm_start()
+                                   : keel_chip_line_start(now->socket, now->line);
 }
 
 /* Whether a turn is of a socket that the board has, and of a protocol that may be heard. */
 static bool may_listen(uint32_t turn, uint8_t chosen)
 {
-    const uint8_t protocol = pilot_bits[(turn / SOCKETS) % TRIED].protocol;
+    const pilot_turn_t *const other = &pilot_turns[turn % TURNS];
+    const bool is_there = (other->line == NULL) ? keel_chip_has_ppm()
+                                                : keel_chip_has_line(other->socket);
 
-    return keel_chip_has_line(pilot_sockets[turn % SOCKETS]) &&
-           ((chosen == COPTER_PROTOCOL_ANY) || (chosen == protocol));
+    return is_there && ((chosen == COPTER_PROTOCOL_ANY) || (chosen == other->protocol));
 }
 
-/* The next turn that makes sense; none with PPM alone, or without a socket. */
+/* The next turn that makes sense; none without a socket. */
 static void search_pilot(board_lines_t *lines, uint8_t chosen, uint32_t now_us)
 {
-    for (uint32_t i = 1u; i <= (TRIED * (uint32_t)SOCKETS); i++) {
+    for (uint32_t i = 1u; i <= TURNS; i++) {
         if (may_listen(lines->turn + i, chosen)) {
             listen_at(lines, lines->turn + i, now_us);
             return;
@@ -109,11 +116,28 @@ void board_lines_turn(board_lines_t *lines, const board_heard_t *heard, uint32_t
     }
 }
 
+/* An edge of PPM is a byte of any value. */
+static bool read_edge(copter_byte_t *byte)
+{
+    uint32_t elapsed_us;
+
+    if (!keel_chip_ppm_read(&elapsed_us)) {
+        return false;
+    }
+    byte->elapsed_us = elapsed_us;
+    byte->value = 0u;
+    return true;
+}
+
 bool board_lines_read(board_lines_t *lines, uint32_t receiver, copter_byte_t *byte)
 {
-    const keel_chip_line_t name = (receiver == COPTER_RC) ? lines->socket : KEEL_LINE_SATELLITES;
+    const bool is_pilot = (receiver == COPTER_RC);
+    const keel_chip_line_t name = is_pilot ? lines->socket : KEEL_LINE_SATELLITES;
     keel_receiver_byte_t come;
 
+    if (is_pilot && lines->by_edges) {
+        return read_edge(byte);
+    }
     if (!keel_chip_line_read(name, &come)) {
         return false;
     }

@@ -5,9 +5,10 @@
  *        receiver, and telemetry.
  *
  * A receiver's protocol tells its bits. As long as the copter has heard none, each protocol's bits
- * are tried at each of the pilot's sockets in turn, BOARD_LISTEN_US each: a receiver that sends is
- * heard within BOARD_LISTEN_US times the number of turns, 3 s on a board with two sockets. The
- * satellite receiver is set up by ublox.h, unless it sends fixes by itself.
+ * are tried at each of the pilot's sockets in turn, and PPM at a pin of its own, BOARD_LISTEN_US
+ * each: a receiver that sends is heard within BOARD_LISTEN_US times the number of turns, 3.5 s on a
+ * board with two sockets and that pin. The satellite receiver is set up by ublox.h, unless it sends
+ * fixes by itself.
  */
 #ifndef COPTER_BOARD_LINES_H
 #define COPTER_BOARD_LINES_H
@@ -43,6 +44,7 @@ typedef struct board_lines {
     keel_ublox_t receiver;        /**< The satellite receiver, as it is set up. */
     uint32_t stepped_us;          /**< When that had its last step. */
     keel_chip_line_t socket;      /**< That is listened to. */
+    bool by_edges;                /**< It is not: PPM is, at its own pin. */
     uint32_t turn;                /**< Of the search. */
     uint32_t since_us;            /**< When that turn began. */
     uint32_t head;                /**< Bytes of telemetry that were put in, modulo 2^32. */

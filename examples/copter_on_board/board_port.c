@@ -95,6 +95,13 @@ static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
     return board_lines_read(&board->lines, receiver, byte);
 }
 
+static bool is_ready(void *context)
+{
+    const board_port_t *const board = context;
+
+    return board_panel_is_ready(&board->panel);
+}
+
 /* --- What the converter measures. --- */
 
 /* The next channel of the modules in turn. A conversion takes 12 us. */
@@ -343,6 +350,13 @@ static void start_lines(board_lines_t *lines)
         keel_chip_has_line(KEEL_LINE_TELEMETRY) ? NULL : missing);
 }
 
+static void start_panel(board_panel_t *panel)
+{
+    board_panel_start(panel);
+    say("safety switch", 0u, panel->has_safety ? NULL : "the board has none");
+    say("buzzer", 0u, panel->has_buzzer ? NULL : "the board has none");
+}
+
 static void start_converter(board_port_t *board)
 {
     /* Of Pixhawk 4's power modules. */
@@ -396,6 +410,7 @@ copter_port_t board_port_start(board_port_t *board)
     start_memory(board);
     start_log(board);
     start_lines(&board->lines);
+    start_panel(&board->panel);
     keel_chip_uid(board->uid);
     return (copter_port_t){.read_clock = keel_board_clock_us,
                            .context = board,
@@ -406,6 +421,7 @@ copter_port_t board_port_start(board_port_t *board)
                            .read_byte = read_byte,
                            .read_power = read_power,
                            .read_chip = read_chip,
+                           .is_ready = is_ready,
                            .stack_free = stack_free,
                            .write_motors = write_motors,
                            .log_room = log_room,

@@ -10,6 +10,7 @@
 #define COPTER_BOARD_PORT_H
 
 #include "board_lines.h"
+#include "board_panel.h"
 #include "devices/ist8310.h"
 #include "devices/ms5611.h"
 #include "fatfs/black_box.h"
@@ -57,6 +58,7 @@ typedef struct board_port {
     keel_ist8310_t magnetometer;
     keel_mounting_t mounting; /**< Of the magnetometer. */
     board_lines_t lines;
+    board_panel_t panel;
     keel_power_module_t scale; /**< Of both power modules. */
     board_module_t module[COPTER_POWER_MODULES];
     keel_medium_t medium;

@@ -118,6 +118,19 @@ static void turn_lines(void)
     board_lines_turn(&board.lines, &heard, keel_board_clock_us(NULL));
 }
 
+static void turn_panel(void)
+{
+    const keel_mode_t *const mode = &copter.state.mode;
+    const board_shown_t shown = {.uses_safety = copter_settings.safety_switch,
+                                 .sounds = copter_settings.buzzer,
+                                 .motors = mode->motors,
+                                 .can_try = mode->ready,
+                                 .is_linked = (mode->settled & KEEL_MODE_RC_LINKED) != 0u,
+                                 .is_low = copter.power.battery.level >= KEEL_BATTERY_LOW};
+
+    board_panel_turn(&board.panel, &shown, keel_board_clock_us(NULL));
+}
+
 int main(void)
 {
     uint64_t reported_us = 0u;
@@ -137,6 +150,7 @@ int main(void)
         require(keel_scheduler_step(&copter.scheduler), FAULT_STEP);
         keel_chip_turn();
         turn_lines();
+        turn_panel();
         if ((copter.scheduler.clock.now_us - reported_us) >= REPORT_EVERY_US) {
             reported_us = copter.scheduler.clock.now_us;
             print_report();

@@ -699,6 +699,18 @@ def test_half_of_the_pressure_is_named(copter: Copter) -> None:
     assert not any("altitude" in said for said in rig.texts())
 
 
+def test_a_safety_switch_that_is_used_and_not_there_is_named(copter: Copter) -> None:
+    """HEA-006: the host has none, so it is never ready."""
+    rig = Rig(copter)
+    set_to(rig, "SAFETY_SWITCH", 1.0)
+    assert rig.ask(ARM, 1) == REJECTED
+    rig.run(500)
+    assert rig.state() == DISARMED
+    assert "not armed: safety switch at safe, or none" in rig.texts()
+    set_to(rig, "SAFETY_SWITCH", 0.0)
+    assert rig.ask(ARM, 1) == ACCEPTED
+
+
 def test_without_the_pilots_link_nothing_moves(copter: Copter) -> None:
     rig = Rig(copter)
     rig.without_radio(1000)

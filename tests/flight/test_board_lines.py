@@ -122,6 +122,16 @@ def test_the_pilots_receiver_is_looked_for(
     assert reports(chip)[-1]["radio"] == radio
 
 
+def test_ppm_is_looked_for_at_its_own_pin(tools: Toolchain, images: Path) -> None:
+    """In the seventh half of a second, behind three protocols at two sockets."""
+    chip = resting()
+    for begin_us in range(100_000, 4_500_000, 22_500):
+        chip.ppm.send(begin_us, [1500, 1500, 1000, 1500, 1000, 1500, 1000, 1500])
+    run_built(tools, images, chip, 4500)
+    third, fourth = reports(chip)[-2:]
+    assert (third["radio"], fourth["radio"]) == (0, 4)
+
+
 def lined(tools: Toolchain, root: Path, builder: firmware.Builder) -> None:
     """In 1.6 s the pilot is heard at the second socket, fixes and samples of the field come."""
     board = read_board(root, "fmuv5")

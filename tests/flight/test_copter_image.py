@@ -31,8 +31,9 @@ from keel.boards.wiring import WIRINGS
 from keel.install import Toolchain
 
 __all__ = ["pyfatfs"]  # A fixture.
-BOARDS = ("fmuv5", "nucleo_f767zi")
+BOARDS = ("fmuv5", "cuav_v5", "nucleo_f767zi")
 STEP_US = 4
+UNITS_OF = {"fmuv5": 2, "cuav_v5": 3, "nucleo_f767zi": 1}
 
 # Says how the board has turned a sample, and turns motors by the port.
 TURNER = """\
@@ -189,6 +190,8 @@ def test_what_is_there_runs_and_what_is_missing_is_named(tools: Toolchain, image
         "receiver of the pilot status 0",
         "receiver of satellites status 0",
         "telemetry status 0",
+        "safety switch status 0",
+        "buzzer status 0",
     ):
         assert f"{line}\r\n" in chip.text
     first, second = reports(chip)
@@ -226,6 +229,19 @@ def test_what_is_broken_is_named_and_the_rest_runs(
     assert (report["fields"] == 0) == (broken == "magnetometer")
 
 
+@pytest.mark.parametrize(("broken", "status"), [("", 0), ("third-sensor", 5)])
+def test_a_third_unit_is_read(tools: Toolchain, images: Path, broken: str, status: int) -> None:
+    """As well as the others; and when it is missing, it is named."""
+    chip = run(tools, images, "cuav_v5", 1.8, broken)
+    for number, told in (1, 0), (2, 0), (3, status):
+        assert f"imu {number} status {told}\r\n" in chip.text
+    (report,) = reports(chip)
+    assert (report["skipped"], report["overruns"]) == (0, 0)
+    assert [report[f"failed{i}"] for i in (1, 2, 3)] == [0, 0, 0]
+    assert report["imu3"] == (0 if broken else report["imu1"])
+    assert report["imu1"] > 800
+
+
 def test_a_board_with_less_says_so(tools: Toolchain, images: Path) -> None:
     chip = run(tools, images, "nucleo_f767zi", 1.4)
     for line in (
@@ -235,6 +251,8 @@ def test_a_board_with_less_says_so(tools: Toolchain, images: Path) -> None:
         "receiver of the pilot missing: the board has no such line",
         "parameters missing: not kept in flash",
         "card missing: the board has no slot",
+        "safety switch missing: the board has none",
+        "buzzer missing: the board has none",
     ):
         assert f"{line}\r\n" in chip.text
     (report,) = reports(chip)
@@ -259,10 +277,11 @@ def test_the_log_is_on_the_card(tools: Toolchain, images: Path, pyfatfs: tuple[A
     assert last_us > 2_000_000
 
 
-PORT, UNITS, PINS = (
+PORT, UNITS, PINS, VARIANT = (
     "examples/copter_on_board/board_port.c",
     "bsp/stm32f767/target/inertial.c",
     "bsp/fmuv5/pins.c",
+    "bsp/fmuv5/variant.c",
 )
 
 
@@ -293,7 +312,7 @@ def turner(
 ) -> Chip:
     board = read_board(root, name)
     made = builder or firmware.Builder(tools, board, root / "build/turner" / name, root)
-    own = ("board_port.c", "board_lines.c")
+    own = ("board_port.c", "board_lines.c", "board_panel.c")
     parts = ["examples/turner", *(f"examples/copter_on_board/{name}" for name in own)]
     image = made.link("keel", [*made.objects(parts), *made.fatfs()])
     sockets = read_sockets(ROOT)[name].outputs
@@ -303,20 +322,20 @@ def turner(
     return chip
 
 
-def check_turner(chip: Chip) -> None:
+def check_turner(chip: Chip, count: int) -> None:
     """A unit says 1 g along its third axis, 1 count of rate there, and how often it was read about
     its first: both boards have it upside down, so that a board at rest feels -9.807 m/s^2
     downwards, and a count of 1 / 16.4 degrees a second is 1.064 mrad/s."""
     is_fmuv5 = len(chip.outputs.log) == 8
     about = 4 if is_fmuv5 else 3  # An FMUv5 has the units' x to the right.
     units = re.findall(r"^body (.*)\r$", chip.text, re.MULTILINE)
-    assert len(units) == (2 if is_fmuv5 else 1), chip.text
-    samples = [chip.sensor.samples, chip.gyroscope.samples]
-    for unit, count in zip(units, samples, strict=False):
+    assert len(units) == count, chip.text
+    samples = [chip.sensor.samples, chip.gyroscope.samples, chip.third.samples]
+    for unit, read in zip(units, samples, strict=False):
         words = unit.split()
         assert words[:3] == ["0", "0", "-9807"]
         assert words[5] == "-1"
-        assert count == 1
+        assert read == 1
         assert (words[about], words[7 - about]) == ("1", "0")
     assert chip.accelerometer.samples == chip.gyroscope.samples
     for number, log in enumerate(chip.outputs.log):
@@ -334,7 +353,7 @@ def check_turner(chip: Chip) -> None:
 def test_motors_turn_at_their_sockets_and_samples_are_of_the_body(
     tools: Toolchain, sources: Path, board: str
 ) -> None:
-    check_turner(turner(tools, sources, board))
+    check_turner(turner(tools, sources, board), UNITS_OF[board])
 
 
 MISTAKES = (
@@ -344,10 +363,10 @@ MISTAKES = (
     (PORT, "else if (board->turning) {", "else if (false) {"),
     (PORT, "(unit >= keel_chip_inertial_count())", "(unit > 0u)"),
     (PORT, "keel_chip_motion(unit,", "keel_chip_motion(0u,"),
-    (PINS, "F, 2u, 2, 1, -3)", "F, 2u, 1, 2, 3)"),
-    (PINS, "F, 2u, 2, 1, -3)", "F, 2u, 1, -2, -3)"),
-    (PINS, "G, 10u, 2, 1, -3)", "G, 10u, 1, -2, -3)"),
-    (PINS, "BMI055, F, 4u, G, 10u", "BMI055, G, 10u, F, 4u"),
+    (VARIANT, "F, 2u, 2, 1, -3)", "F, 2u, 1, 2, 3)"),
+    (VARIANT, "F, 2u, 2, 1, -3)", "F, 2u, 1, -2, -3)"),
+    (VARIANT, "G, 10u, 2, 1, -3)", "G, 10u, 1, -2, -3)"),
+    (VARIANT, "BMI055, F, 4u, G, 10u", "BMI055, G, 10u, F, 4u"),
     (UNITS, "? -(float)value", "? (float)value"),
     (UNITS, "(9.80665f / 2048.0f)", "(9.80665f / 4096.0f)"),
 )
@@ -356,26 +375,26 @@ MISTAKES = (
 def test_mistakes_in_the_port_are_noticed(tools: Toolchain, sources: Path) -> None:
     board = read_board(sources, "fmuv5")
     builder = firmware.Builder(tools, board, sources / "build/wrong", sources)
-    check_turner(turner(tools, sources, "fmuv5", builder))
+    check_turner(turner(tools, sources, "fmuv5", builder), 2)
     for path, old, new in MISTAKES:
         with mistaken(sources, builder, path, old, new), pytest.raises(AssertionError):
-            check_turner(turner(tools, sources, "fmuv5", builder))
+            check_turner(turner(tools, sources, "fmuv5", builder), 2)
 
 
 @pytest.mark.parametrize("mounting", ["2, 1, 3)", "1, 1, 3)", "1, 2, 4)", "0, 2, 3)"])
 def test_a_mounting_that_is_no_rotation_does_not_compile(
     tools: Toolchain, sources: Path, mounting: str
 ) -> None:
-    file = sources / "bsp/fmuv5/pins.c"
+    file = sources / VARIANT
     text = file.read_text()
     board = read_board(sources, "fmuv5")
     builder = firmware.Builder(tools, board, sources / "build/bent", sources)
-    builder.object("bsp/fmuv5/pins.c")
+    builder.object(VARIANT)
     builder.build.made.clear()
     file.write_text(text.replace("F, 2u, 2, 1, -3)", f"F, 2u, {mounting}"))
     try:
         with pytest.raises(firmware.ToolError, match="negative"):
-            builder.object("bsp/fmuv5/pins.c")
+            builder.object(VARIANT)
     finally:
         file.write_text(text)
 

@@ -24,6 +24,7 @@ static copter_port_t port;
 static copter_barometer_sample_t breath;
 static copter_chip_t chip;
 static bool breathes;
+static bool ready;
 static int asked;
 const int PRESSURE = SENT_SCALED_PRESSURE, NAMED = SENT_NAMED_VALUE_INT;
 static bool read_breath(void *context, copter_barometer_sample_t *sample)
@@ -66,6 +67,22 @@ int blocks_by_pressure(void)
     copter_state_machine(&copter);
     return (copter.state.mode.blocking.checks & COPTER_CHECK_GROUND_PRESSURE) != 0u;
 }
+static bool is_ready_of_test(void *context)
+{
+    (void)context;
+    return ready;
+}
+int blocks_by_switch(int uses, int has, int is_ready)
+{
+    copter_settings = copter_defaults;
+    copter_settings.safety_switch = uses != 0;
+    port.is_ready = (has != 0) ? is_ready_of_test : NULL;
+    ready = is_ready != 0;
+    (void)copter_state_machine_init(&copter.state);
+    copter_state_machine(&copter);
+    return (copter.state.mode.blocking.checks & COPTER_CHECK_SAFETY_SWITCH) != 0u;
+}
+int uses_by_default(void) { return copter_defaults.safety_switch; }
 int healthy_barometer(void)
 {
     uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX] = {0};
@@ -274,3 +291,20 @@ class CopterHealth(unittest.TestCase):
 
     def test_HEA_005_nothing_is_said_before_the_first_pressure(self) -> None:
         self.assertFalse(self.copter.blocks_by_pressure())
+
+    def test_HEA_006_the_safety_switch(self) -> None:
+        """By whether it is used, whether the board has one, and whether that is ready."""
+        for uses, has, ready, blocks in (
+            (0, 0, 0, False),
+            (0, 1, 0, False),
+            (0, 1, 1, False),
+            (1, 0, 0, True),
+            (1, 1, 0, True),
+            (1, 1, 1, False),
+        ):
+            blocked = bool(self.copter.blocks_by_switch(uses, has, ready))
+            self.assertEqual(blocked, blocks, (uses, has, ready))
+
+    def test_HEA_006_it_is_not_used_by_default(self) -> None:
+        """Who has no button arms all the same."""
+        self.assertFalse(self.copter.uses_by_default())

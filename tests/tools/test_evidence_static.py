@@ -129,7 +129,8 @@ class Static(PartTest):
         self.write("stack/fmuv5.json", {**stack_report(), "painted": None})
         painted = {row[0]: row[4] for row in self.table("Worst-case") if row[1] == "stack main"}
         self.assertEqual(
-            painted, {"fmuv5": "did not run", "mps2_an500": "100", "nucleo_f767zi": "100"}
+            painted,
+            {"cuav_v5": "100", "fmuv5": "did not run", "mps2_an500": "100", "nucleo_f767zi": "100"},
         )
 
     def test_a_cost_above_its_budget(self) -> None:

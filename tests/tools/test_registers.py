@@ -116,7 +116,7 @@ class RegistersTest(unittest.TestCase):
             self.assertEqual(text.count(lines[name]), 1)
             text = text.replace(lines[name], f"@{other}@")
         path.write_text(re.sub("@(.*?)@", r"KEEL_OUTPUT(\1)", text))
-        self.finds("bsp/fmuv5/pins.c", "outputs PE9 TIM1_CH1, PE11", "has PE14 TIM1_CH4, PA10")
+        self.finds("bsp/fmuv5: ", "outputs PE9 TIM1_CH1, PE11", "has PE14 TIM1_CH4, PA10")
 
     def test_an_output_at_a_wrong_timer_is_found(self) -> None:
         self.change("bsp/fmuv5/pins.c", "(H, 6u, 9u, TIM12, CH1)", "(H, 6u, 9u, TIM12, CH2)")
@@ -124,21 +124,35 @@ class RegistersTest(unittest.TestCase):
 
     def test_a_supply_that_is_not_switched_on_is_found(self) -> None:
         self.change("bsp/fmuv5/pins.c", "KEEL_LEVEL(G, 4u, false)", "KEEL_LEVEL(G, 4u, true)")
-        self.finds("bsp/fmuv5/pins.c", "PG4 high", "PG4 low")
+        self.finds("bsp/fmuv5: ", "PG4 high", "PG4 low")
 
     def test_a_sensor_that_is_mounted_otherwise_is_found(self) -> None:
-        self.change("bsp/fmuv5/pins.c", "F, 2u, 2, 1, -3)", "F, 2u, 1, -2, -3)")
-        self.finds("bsp/fmuv5/pins.c", "ICM20689 PF2 1 -2 -3", "has ICM20689 PF2 2 1 -3")
+        self.change("bsp/fmuv5/variant.c", "F, 2u, 2, 1, -3)", "F, 2u, 1, -2, -3)")
+        self.finds("bsp/fmuv5: ", "ICM20689 PF2 1 -2 -3", "has ICM20689 PF2 2 1 -3")
 
     def test_a_unit_with_its_selects_exchanged_is_found(self) -> None:
-        self.change("bsp/fmuv5/pins.c", "BMI055, F, 4u, G, 10u", "BMI055, G, 10u, F, 4u")
-        self.finds("bsp/fmuv5/pins.c", "BMI055 PG10 PF4", "BMI055 PF4 PG10")
+        self.change("bsp/fmuv5/variant.c", "BMI055, F, 4u, G, 10u", "BMI055, G, 10u, F, 4u")
+        self.finds("bsp/fmuv5: ", "BMI055 PG10 PF4", "BMI055 PF4 PG10")
+
+    def test_a_third_unit_at_another_select_is_found(self) -> None:
+        self.change("bsp/cuav_v5/variant.c", "ICM20602, F, 3u", "ICM20602, F, 5u")
+        self.finds("bsp/cuav_v5: ", "ICM20602 PF5 2 1 -3", "ICM20602 PF3 2 1 -3")
+
+    def test_the_pins_of_the_panel_and_of_ppm_are_compared(self) -> None:
+        for old, new, told in (
+            ("KEEL_SAFETY(E, 10u, E, 12u)", "KEEL_SAFETY(E, 12u, E, 10u)", "safety PE12 PE10"),
+            ("(E, 5u, 3u, TIM9, CH1)", "(E, 6u, 3u, TIM9, CH2)", "buzzer PE6 TIM9_CH2"),
+            ("(I, 5u, 3u, TIM8, CH1)", "(I, 6u, 3u, TIM8, CH2)", "ppm PI6 TIM8_CH2"),
+        ):
+            self.change("bsp/fmuv5/pins.c", old, new)
+            self.finds("bsp/fmuv5: ", told)
+            self.finds("bsp/cuav_v5: ", told)
 
     def test_a_board_whose_sockets_nobody_told_is_found(self) -> None:
         path = self.root / SOCKETS
         path.write_text(path.read_text().replace('"nucleo_f767zi"', '"other"'))
-        self.finds("bsp/nucleo_f767zi/pins.c", "does not have this board")
-        self.finds(SOCKETS, "there is no bsp/other/pins.c")
+        self.finds("bsp/nucleo_f767zi: ", "does not have this board")
+        self.finds(SOCKETS, "other: there is no such board")
 
     def test_a_wrong_analogue_channel_is_found(self) -> None:
         self.change("bsp/fmuv5/pins.c", "(C, 0u, 10u)", "(C, 0u, 8u)")

@@ -43,6 +43,8 @@ typedef struct keel_dma {
 #define DMA_CR0_EN        BITS(0u, 1u)
 #define DMA_CR0_CIRC      BITS(8u, 1u)
 #define DMA_CR0_MINC      BITS(10u, 1u)
+#define DMA_CR0_PSIZE     BITS(11u, 2u)
+#define DMA_CR0_MSIZE     BITS(13u, 2u)
 #define DMA_CR0_PL        BITS(16u, 2u)
 #define DMA_CR0_CHSEL     BITS(25u, 4u)
 #define DMA_FCR0_RESET    0x00000021u

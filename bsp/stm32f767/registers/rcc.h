@@ -84,12 +84,14 @@ typedef struct keel_rcc {
 #define RCC_APB1ENR_UART7EN    BITS(30u, 1u)
 #define RCC_APB2ENR_RESET      0x00000000u
 #define RCC_APB2ENR_TIM1EN     BITS(0u, 1u)
+#define RCC_APB2ENR_TIM8EN     BITS(1u, 1u)
 #define RCC_APB2ENR_USART1EN   BITS(4u, 1u)
 #define RCC_APB2ENR_USART6EN   BITS(5u, 1u)
 #define RCC_APB2ENR_ADC1EN     BITS(8u, 1u)
 #define RCC_APB2ENR_SDMMC1EN   BITS(11u, 1u)
 #define RCC_APB2ENR_SPI1EN     BITS(12u, 1u)
 #define RCC_APB2ENR_SPI4EN     BITS(13u, 1u)
+#define RCC_APB2ENR_TIM9EN     BITS(16u, 1u)
 #define RCC_CSR_RESET          0x0E000000u
 #define RCC_CSR_RMVF           BITS(24u, 1u)
 #define RCC_CSR_IWDGRSTF       BITS(29u, 1u)

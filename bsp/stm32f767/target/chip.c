@@ -135,13 +135,21 @@ void keel_chip_give_spi(keel_alternate_t sck, keel_alternate_t miso, keel_altern
     keel_chip_give(mosi, KEEL_PULL_NONE);
 }
 
+void keel_chip_give_light(const keel_led_t *light)
+{
+    keel_pin_output(light->pin, light->active_low ? KEEL_DRIVE_OPEN_DRAIN : KEEL_DRIVE_PUSH_PULL,
+                    light->active_low);
+}
+
+void keel_chip_shine(const keel_led_t *light, bool on)
+{
+    keel_pin_write(light->pin, on != light->active_low);
+}
+
 static void start_leds(void)
 {
     for (uint32_t i = 0u; i < KEEL_LEDS; i++) {
-        const keel_led_t *const led = &PINS->led[i];
-
-        keel_pin_output(led->pin, led->active_low ? KEEL_DRIVE_OPEN_DRAIN : KEEL_DRIVE_PUSH_PULL,
-                        led->active_low);
+        keel_chip_give_light(&PINS->led[i]);
     }
 }
 
@@ -318,9 +326,7 @@ void keel_board_halt(int status)
 
 void keel_chip_led(keel_led_name_t name, bool on)
 {
-    const keel_led_t *const led = &PINS->led[name];
-
-    keel_pin_write(led->pin, on != led->active_low);
+    keel_chip_shine(&PINS->led[name], on);
 }
 
 keel_bsp_status_t keel_chip_delay(void *context, uint32_t time_us)

@@ -13,6 +13,8 @@
 #include "devices/inertial.h"
 #include "keel/rtos/scheduler.h"
 #include "stm32f767/adc.h"
+#include "stm32f767/buzzer.h"
+#include "stm32f767/capture.h"
 #include "stm32f767/clock_tree.h"
 #include "stm32f767/pin.h"
 #include "stm32f767/pwm.h"
@@ -74,6 +76,14 @@ extern const keel_pwm_timer_t keel_chip_timers[KEEL_CHIP_TIMERS];
     {KEEL_PIN(letter, number), (function), &keel_chip_timers[KEEL_TIMER_##timer],                  \
      KEEL_CHANNEL_##channel}
 
+/** The pin of a receiver of PPM, of timer 8; held against a database and specs/outputs.toml. */
+#define KEEL_PPM(letter, number, function, timer, channel)                                         \
+    KEEL_ALTERNATE(letter, number, function, timer, channel)
+
+/** The pin of the buzzer, of timer 9; held against a database and specs/outputs.toml. */
+#define KEEL_BUZZER(letter, number, function, timer, channel)                                      \
+    KEEL_ALTERNATE(letter, number, function, timer, channel)
+
 /** A pin that has one level for good; `make check NAME=registers` holds it against
  * specs/outputs.toml. */
 #define KEEL_LEVEL(letter, number, high) {KEEL_PIN(letter, number), (high)}
@@ -92,6 +102,24 @@ typedef struct keel_led {
     keel_pin_t pin;
     bool active_low; /**< It shines when the pin is low; the pin is then an open drain. */
 } keel_led_t;
+
+/**
+ * The pins of a safety switch: its button, and its light. `make check NAME=registers` holds them
+ * against specs/outputs.toml.
+ */
+#define KEEL_SAFETY(letter, number, other, another)                                                \
+    {                                                                                              \
+        KEEL_PIN(letter, number),                                                                  \
+        {                                                                                          \
+            KEEL_PIN(other, another), true                                                         \
+        }                                                                                          \
+    }
+
+/** A safety switch: a button that joins its pin to the supply, and a light. */
+typedef struct keel_board_safety {
+    keel_pin_t button;
+    keel_led_t light;
+} keel_board_safety_t;
 
 /** The lights of both boards. */
 typedef enum keel_led_name {
@@ -238,6 +266,17 @@ typedef struct keel_board_line {
 #define KEEL_IS_APB1 0
 #define KEEL_IS_APB2 1
 
+/** The inertial units of a board. */
+typedef struct keel_board_units {
+    const keel_board_inertial_t *unit; /**< In the order of the vote. */
+    uint32_t count;                    /**< 1 to KEEL_CHIP_INERTIAL_UNITS. */
+    const keel_pin_t *deselect;        /**< Other devices on the bus, which must stay silent. */
+    uint32_t deselect_count;
+} keel_board_units_t;
+
+/** Board: its inertial units, in which boards after one standard differ. */
+extern const keel_board_units_t keel_board_units;
+
 /** What a board says about itself. */
 typedef struct keel_board_pins {
     keel_oscillator_t oscillator;
@@ -254,16 +293,15 @@ typedef struct keel_board_pins {
     keel_alternate_t sck;    /**< SPI 1, with the inertial units. */
     keel_alternate_t miso;
     keel_alternate_t mosi;
-    const keel_board_inertial_t *inertial; /**< In the order of the vote. */
-    uint32_t inertial_count;               /**< 1 to KEEL_CHIP_INERTIAL_UNITS. */
-    const keel_pin_t *deselect;            /**< Other devices on the bus, which must stay silent. */
-    uint32_t deselect_count;
     const keel_analogue_t *analogue;               /**< By keel_analogue_name_t; null: none. */
     uint32_t analogue_count;                       /**< KEEL_ANALOGUES, or 0. */
     const keel_board_card_t *card;                 /**< Null: no slot. */
     const keel_board_device_t *memory;             /**< FM25V02 at SPI 2; null: none. */
     const keel_board_device_t *barometer;          /**< MS5611 at SPI 4; null: none. */
     const keel_board_magnetometer_t *magnetometer; /**< Null: none. */
+    const keel_board_safety_t *safety;             /**< Null: none. */
+    const keel_alternate_t *ppm;                   /**< At timer 8, channel 1; null: none. */
+    const keel_alternate_t *buzzer;                /**< At timer 9, channel 1; null: none. */
     keel_board_line_t lines[KEEL_CHIP_LINES];      /**< By keel_chip_line_t. */
     uint32_t kept_sector; /**< The first of two flash sectors that images leave free, where there is
                                no memory; 0: none. */
@@ -279,6 +317,40 @@ extern const keel_board_pins_t keel_board_pins;
  * @param on   whether it shines
  */
 void keel_chip_led(keel_led_name_t name, bool on);
+
+/**
+ * Starts the board's safety switch: its button's pin is held low, so that an open socket reads as
+ * a button that nobody presses, and its light is dark.
+ *
+ * @return whether the board has one
+ */
+bool keel_chip_safety_start(void);
+
+/** Whether the button of the safety switch is pressed now; false where there is none. */
+bool keel_chip_safety_is_pressed(void);
+
+/**
+ * Sets the light of the safety switch, if there is one.
+ *
+ * @param on whether it shines
+ */
+void keel_chip_safety_light(bool on);
+
+/**
+ * Starts the board's buzzer, silent. To be called once, before those below.
+ *
+ * @return whether the board has one
+ */
+bool keel_chip_buzzer_start(void);
+
+/** Plays a tune, as keel_buzzer_play, if there is a buzzer. */
+void keel_chip_buzzer_play(const keel_tone_t *tones, uint32_t count);
+
+/** Lets time pass for the tune, as keel_buzzer_turn, if there is a buzzer. */
+void keel_chip_buzzer_turn(uint32_t elapsed_us);
+
+/** Whether a tune plays; false without a buzzer, too. */
+bool keel_chip_buzzer_plays(void);
 
 /** How many inertial units the board says that it has, 1 to KEEL_CHIP_INERTIAL_UNITS. */
 uint32_t keel_chip_inertial_count(void);
@@ -377,6 +449,24 @@ bool keel_chip_line_read(keel_chip_line_t name, keel_receiver_byte_t *byte);
  * @return whether it is on its way; false before the line's start, too
  */
 bool keel_chip_line_send(keel_chip_line_t name, uint8_t value);
+
+/** Whether the board has a pin for a receiver of PPM. */
+bool keel_chip_has_ppm(void);
+
+/**
+ * Starts to take the edges of a receiver of PPM, or starts anew: what was unread is forgotten.
+ *
+ * @return as keel_capture_start; KEEL_BSP_ARGUMENT when the board has no such pin
+ */
+keel_bsp_status_t keel_chip_ppm_start(void);
+
+/**
+ * The next edge of PPM, as keel_capture_read.
+ *
+ * @param elapsed_us the time since the edge before, in us; as it was when there is none
+ * @return whether there is one; false before the start, too
+ */
+bool keel_chip_ppm_read(uint32_t *elapsed_us);
 
 /** What came by a line, and what did not; all 0 before its start. */
 const keel_receiver_count_t *keel_chip_line_count(keel_chip_line_t name);

@@ -24,6 +24,12 @@ void keel_chip_require(keel_bsp_status_t status);
 /** Gives a pin to its peripheral. */
 void keel_chip_give(keel_alternate_t to, keel_pull_t pull);
 
+/** Makes the pin of a light an output, with the light dark: an open drain where low lights it. */
+void keel_chip_give_light(const keel_led_t *light);
+
+/** Lets a light shine, or not. */
+void keel_chip_shine(const keel_led_t *light, bool on);
+
 /** Makes a chip select's pin an output that selects nothing. */
 void keel_chip_deselect(keel_pin_t select);
 

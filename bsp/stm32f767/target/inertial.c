@@ -31,18 +31,18 @@ static inertial_unit_t inertial_unit[KEEL_CHIP_INERTIAL_UNITS] KEEL_REALTIME_ZER
 
 uint32_t keel_chip_inertial_count(void)
 {
-    return PINS->inertial_count;
+    return keel_board_units.count;
 }
 
 /* Whatever else is on the bus is not selected before the first unit is. */
 void keel_chip_inertial_begin(void)
 {
-    for (uint32_t i = 0u; i < PINS->deselect_count; i++) {
-        keel_chip_deselect(PINS->deselect[i]);
+    for (uint32_t i = 0u; i < keel_board_units.deselect_count; i++) {
+        keel_chip_deselect(keel_board_units.deselect[i]);
     }
-    for (uint32_t i = 0u; i < PINS->inertial_count; i++) {
-        keel_chip_deselect(PINS->inertial[i].select);
-        keel_chip_deselect(PINS->inertial[i].accelerometer_select);
+    for (uint32_t i = 0u; i < keel_board_units.count; i++) {
+        keel_chip_deselect(keel_board_units.unit[i].select);
+        keel_chip_deselect(keel_board_units.unit[i].accelerometer_select);
     }
     keel_chip_give_spi(PINS->sck, PINS->miso, PINS->mosi);
     keel_bits_enable(&RCC->APB2ENR, RCC_APB2ENR_SPI1EN);
@@ -83,11 +83,11 @@ keel_bsp_status_t keel_chip_inertial_start(uint32_t number)
     inertial_unit_t *unit;
     const keel_board_inertial_t *place;
 
-    if (number >= PINS->inertial_count) {
+    if (number >= keel_board_units.count) {
         return status;
     }
     unit = &inertial_unit[number];
-    place = &PINS->inertial[number];
+    place = &keel_board_units.unit[number];
     unit->device = (keel_spi_device_t){SPI1, place->select, &keel_chip_byte_patience};
     unit->accelerometer = (keel_spi_device_t){SPI1, place->accelerometer_select,
                                               &keel_chip_byte_patience};
@@ -113,10 +113,10 @@ KEEL_REALTIME_CODE keel_bsp_status_t keel_chip_inertial_read(uint32_t number,
 {
     keel_bsp_status_t status = KEEL_BSP_ARGUMENT;
 
-    if (number >= PINS->inertial_count) {
+    if (number >= keel_board_units.count) {
         return status;
     }
-    switch (PINS->inertial[number].kind) {
+    switch (keel_board_units.unit[number].kind) {
     case KEEL_INERTIAL_ICM20689:
     case KEEL_INERTIAL_ICM20602:
         status = keel_invensense_read(&inertial_unit[number].invensense, sample);
@@ -148,7 +148,7 @@ KEEL_REALTIME_CODE keel_bsp_status_t keel_chip_motion(uint32_t number, keel_chip
     const keel_bsp_status_t status = keel_chip_inertial_read(number, &sample);
 
     if (status == KEEL_BSP_OK) {
-        const keel_mounting_t *const mounting = &PINS->inertial[number].mounting;
+        const keel_mounting_t *const mounting = &keel_board_units.unit[number].mounting;
 
         keel_mounting_turn(mounting, sample.acceleration, FORCE_UNIT, motion->force);
         keel_mounting_turn(mounting, sample.rate, RATE_UNIT, motion->rate);

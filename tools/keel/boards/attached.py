@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Peripherals of the chip that are models of their own: an I2C, UARTs, and the DMA behind them."""
+"""Peripherals of the chip that are models of their own: an I2C, UARTs, a timer that captures, and
+the DMA behind them."""
 
 from __future__ import annotations
 
@@ -8,10 +9,11 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from keel.base.errors import ToolError
+from keel.boards.capture import OWN, TIM8, Capture
 from keel.boards.dma_uart import UARTS, DmaUartError, Line
 from keel.boards.i2c import I2c
 from keel.boards.spi import Pin
-from keel.boards.wiring import AHB1ENR, APB1ENR, LineWiring
+from keel.boards.wiring import AHB1ENR, APB1ENR, APB2ENR, LineWiring
 
 DMAS = {1: 0x4002_6000, 2: 0x4002_6400}
 I2C3 = 0x4000_5C00
@@ -34,6 +36,18 @@ class Block(Protocol):
     def write(self, offset: int, value: int, now_us: int) -> None: ...
 
 
+class Stream(Protocol):
+    """A stream of DMA, by the offsets of its registers."""
+
+    flags: int
+
+    def read_stream(self, offset: int, now_us: float) -> int: ...
+
+    def write_stream(self, offset: int, value: int, now_us: float) -> None: ...
+
+    def clear(self, flags: int) -> None: ...
+
+
 @dataclass
 class UartBlock:
     """The registers of a UART."""
@@ -49,35 +63,35 @@ class UartBlock:
 
 @dataclass
 class DmaBlock:
-    """The registers of a DMA, of whose streams some are lines'."""
+    """The registers of a DMA, of whose streams some are used."""
 
-    lines: Mapping[int, Line]  # By stream.
+    streams: Mapping[int, Stream]
 
     def read(self, offset: int, now_us: int) -> int:
         if offset >= STREAMS:
             stream, register = divmod(offset - STREAMS, STREAM_SIZE)
-            line = self.lines.get(stream)
-            return line.read_stream(register, now_us) if line else 0
+            used = self.streams.get(stream)
+            return used.read_stream(register, now_us) if used else 0
         if offset in (0, 4):
-            return sum(line.flags << place for line, place in self._of(offset))
+            return sum(used.flags << place for used, place in self._of(offset))
         return 0
 
     def write(self, offset: int, value: int, now_us: int) -> None:
         if offset >= STREAMS:
             stream, register = divmod(offset - STREAMS, STREAM_SIZE)
-            if stream not in self.lines:
+            if stream not in self.streams:
                 raise DmaUartError(f"stream {stream} of a DMA is used, which hears no line")
-            self.lines[stream].write_stream(register, value, now_us)
+            self.streams[stream].write_stream(register, value, now_us)
         elif offset in (8, 0xC):
-            for line, place in self._of(offset - 8):
-                line.clear(value >> place & FLAGS)
+            for used, place in self._of(offset - 8):
+                used.clear(value >> place & FLAGS)
 
-    def _of(self, offset: int) -> list[tuple[Line, int]]:
-        """The lines that have their flags in a word, each with its place there."""
+    def _of(self, offset: int) -> list[tuple[Stream, int]]:
+        """The streams that have their flags in a word, each with its place there."""
         first = offset  # The lower word is of streams 0 to 3, the upper one of 4 to 7.
         return [
-            (line, FLAG_PLACES[stream - first])
-            for stream, line in self.lines.items()
+            (used, FLAG_PLACES[stream - first])
+            for stream, used in self.streams.items()
             if first <= stream < first + 4
         ]
 
@@ -89,6 +103,7 @@ class Attached:
         self,
         wirings: Mapping[str, LineWiring],
         i2c: I2c | None,
+        ppm: Capture | None,
         clocked: Callable[[tuple[int, int]], bool],
         function_of: Callable[[Pin], int | None],
         store: Callable[[int, int], None],
@@ -97,7 +112,7 @@ class Attached:
             return lambda: function_of(wiring.rx) == wiring.function
 
         self.clocked = clocked
-        self.i2c = i2c
+        self.i2c, self.ppm = i2c, ppm
         self.lines = {
             name: Line(
                 wiring.uart, wiring.dma, wiring.stream, wiring.clock_hz, store, joined(wiring)
@@ -109,9 +124,15 @@ class Attached:
             block = UartBlock(self.lines[name])
             self.blocks[UARTS[wiring.uart].base] = (wiring.uart, block, [wiring.clock])
         for number, base in DMAS.items():
-            own = {line.stream: line for line in self.lines.values() if line.dma == number}
+            own: dict[int, Stream] = {
+                line.stream: line for line in self.lines.values() if line.dma == number
+            }
+            if ppm and number == OWN[0]:
+                own[OWN[1]] = ppm
             clock = (AHB1ENR, 20 + number)
             self.blocks[base] = (f"DMA {number}", DmaBlock(own), [clock])
+        if ppm:
+            self.blocks[TIM8] = ("timer 8", ppm, [(APB2ENR, 1)])
         if i2c:
             self.blocks[I2C3] = ("I2C 3", i2c, [(APB1ENR, 23)])
 
@@ -120,6 +141,8 @@ class Attached:
             line.reset()
         if self.i2c:
             self.i2c.reset()
+        if self.ppm:
+            self.ppm.reset()
 
     def read(self, base: int, offset: int, now_us: int) -> int:
         return self._block(base).read(offset, now_us)

@@ -10,6 +10,7 @@ from functools import partial
 from keel.base.errors import ToolError
 from keel.boards.attached import DMAS, I2C3, Attached, ClockError
 from keel.boards.bmi055 import ACCELEROMETER_ID, GYROSCOPE_ID, Bmi055Part
+from keel.boards.capture import TIM8, Capture
 from keel.boards.card import CardError, CardHost, SdCard
 from keel.boards.dma_uart import UARTS, DmaUartError
 from keel.boards.fram import Fram
@@ -26,6 +27,7 @@ from keel.boards.wiring import BMI055, UART7, USART3, Wiring
 # Bases of the peripherals (RM0410, table 1).
 TIM5, IWDG, PWR, TIM1, TIM4 = 0x4000_0C00, 0x4000_3000, 0x4000_7000, 0x4001_0000, 0x4000_0800
 GPIOA, RCC, FLASHR, TIM12 = 0x4002_0000, 0x4002_3800, 0x4002_3C00, 0x4000_1800
+TIM9 = 0x4001_4000
 SYSTICK, NVIC, SCB, DBGMCU = 0xE000_E010, 0xE000_E100, 0xE000_ED00, 0xE004_2000
 ADC1, ADC_COMMON, SDMMC1 = 0x4001_2000, 0x4001_2300, 0x4001_2C00
 BLOCKS = {
@@ -45,6 +47,8 @@ BLOCKS = {
     SYSTICK: 0x10,
     TIM4: 0x54,
     TIM12: 0x54,
+    TIM9: 0x54,
+    TIM8: 0x68,
     NVIC: 0x200,
     ADC1: 0x50,
     ADC_COMMON: 0xC,
@@ -86,7 +90,9 @@ FLASH_KEYS, FLASH_LOCK = [0x4567_0123, 0xCDEF_89AB], 1 << 31
 OPTIONS = RESETS[FLASHR + 0x14]  # Option bytes: brown-out level 2.7 V, and locked.
 CORE_MHZ = 216
 I2C_FUNCTION = 4  # Of the pins of I2C 3.
-SENSORS = ("sensor", "other-sensor", "second-sensor")  # Without the first, or another, …
+PPM_FUNCTION = 3  # Of the pin that timer 8 captures at.
+# Without the first, with another one in its place, …
+SENSORS = ("sensor", "other-sensor", "second-sensor", "third-sensor")
 BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", "magnetometer", *SENSORS)
 
 
@@ -140,6 +146,7 @@ class Chip:
         self.broken = broken
         identity = OTHER if broken == "other-sensor" else IDENTITY
         self.sensor = Icm20689(identity, there=broken != "sensor")
+        self.third = Icm20689(OTHER, there=broken != "third-sensor")  # The ICM-20602.
         self.gyroscope = Bmi055Part(GYROSCOPE_ID, there=broken != "second-sensor")
         self.accelerometer = Bmi055Part(ACCELEROMETER_ID, there=broken != "second-sensor")
         self.step_us = 1  # By how much a reading of the time base moves time on.
@@ -158,18 +165,27 @@ class Chip:
         self.barometer = Ms5611(there=broken != "barometer")
         devices: dict[str, Device] = {
             "ICM-20689": self.sensor,
+            "ICM-20602": self.third,
             "memory": self.fram,
             "barometer": self.barometer,
             **dict(zip(BMI055, (self.gyroscope, self.accelerometer), strict=True)),
         }
         self.spis = Spis(wiring.buses, [(seat, devices[seat.name]) for seat in wiring.seats])
         self.i2c_pins = wiring.i2c
+        self.button = wiring.button
+        self.presses: list[tuple[int, int]] = []  # From when to when the button is held, in us.
         self.magnetometer = Ist8310(there=broken != "magnetometer")
         self.i2c = I2c({IST8310_ADDRESS: self.magnetometer})
         self.store: Callable[[int, int], None] = lambda *_: None  # The processor has the memory.
+        self.ppm = Capture(
+            lambda address, byte: self.store(address, byte),
+            lambda: timers()["TIM9"].mhz(self.words),
+            lambda: wiring.ppm is not None and self._is_pulled_up(wiring.ppm, PPM_FUNCTION),
+        )
         self.attached = Attached(
             wiring.lines,
             self.i2c if wiring.i2c else None,
+            self.ppm if wiring.ppm else None,
             lambda clock: bool(self.words.get(clock[0], 0) >> clock[1] & 1),
             self._function_of,
             lambda address, byte: self.store(address, byte),
@@ -305,9 +321,19 @@ class Chip:
                 raise ModelError("a transfer begins, but a pin is not the I2C's, or pushes")
 
     def _inputs(self, port: int) -> int:
-        """What pins read, as far as anything is joined to them: the lines of the I2C."""
+        """What pins read, as far as anything is joined to them: the lines of the I2C, and the
+        button of the safety switch."""
         levels = dict(zip(self.i2c_pins or (), self.i2c.lines(), strict=False))
+        if self.button and self.button[0] == port:
+            levels[self.button] = self._is_pressed(self.button)
         return sum(high << pin[1] for pin, high in levels.items() if pin[0] == port)
+
+    def _is_pressed(self, pin: tuple[int, int]) -> bool:
+        """A button joins its pin to the supply; open, the pin is what it is pulled to."""
+        base, place = GPIOA + 0x400 * pin[0], 2 * pin[1]
+        if self.words.get(base, 0) >> place & 3 or self.words.get(base + 0xC, 0) >> place & 3 != 2:
+            raise ModelError("the button is read, but its pin is no input that is pulled down")
+        return any(begin <= self.time_us < end for begin, end in self.presses)
 
     def _outputs(self, base: int, offset: int) -> None:
         """A timer of the outputs, or a port, has changed."""
@@ -445,6 +471,11 @@ class Chip:
         if self.words.get(base, 0) >> 2 * number & 3 != 2:
             return None
         return self.words.get(base + 0x20 + 4 * (number // 8), 0) >> 4 * (number % 8) & 0xF
+
+    def _is_pulled_up(self, pin: tuple[int, int], function: int) -> bool:
+        """Whether a pin has an alternate function, and a pull-up for who only pulls it low."""
+        pull = self.words.get(GPIOA + 0x400 * pin[0] + 0xC, 0) >> 2 * pin[1] & 3
+        return pull == 1 and self._function_of(pin) == function
 
     def _tim1(self, offset: int, value: int) -> None:
         if offset == 0x44:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A model of the inertial unit ICM-20689 on an SPI (DS-000143), register by register."""
+"""A model of the inertial units ICM-20689 (DS-000143) and ICM-20602 (DS-000176) on an SPI, register
+by register: in what the images use, they differ by their identity."""
 
 from __future__ import annotations
 

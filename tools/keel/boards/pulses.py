@@ -116,10 +116,12 @@ def timers() -> dict[str, Timer]:
         "TIM1": Timer(0x4001_0000, 4, True, (APB2ENR, 0)),
         "TIM4": Timer(0x4000_0800, 4, False, (APB1ENR, 2)),
         "TIM12": Timer(0x4000_1800, 2, False, (APB1ENR, 6)),
+        "TIM9": Timer(0x4001_4000, 2, False, (APB2ENR, 16)),
     }
 
 
-FUNCTIONS = {"TIM1": 1, "TIM4": 2, "TIM12": 9}  # That give a pin to each (data sheet, table 13).
+# That give a pin to each (data sheet, table 13).
+FUNCTIONS = {"TIM1": 1, "TIM4": 2, "TIM12": 9, "TIM9": 3}
 
 
 class Outputs:

@@ -103,7 +103,7 @@ def ral_interrupts(root: Path) -> dict[str, int]:
 
 # The chips that are on the boards: one has more pins than the other. Registers, interrupts and
 # memories are compared with the first one's.
-CHIPS = {"nucleo_f767zi": "stm32f767zi", "fmuv5": "stm32f765ii"}
+CHIPS = {"nucleo_f767zi": "stm32f767zi", "fmuv5": "stm32f765ii", "cuav_v5": "stm32f765ii"}
 FIRST = "nucleo_f767zi"
 
 

@@ -14,10 +14,10 @@ fetched with their checksums and read as data:
 
 A fact without a counterpart is a difference, unless specs/registers.toml says with a reason why it
 has none, or what the database calls it. An entry there that nothing needs is a difference too.
-The signals of the boards' pins (bsp/*/pins.c) and what the boards' files say of memories and
-interrupts (bsp/*/board.toml, and their base) are compared as well. Which pin comes out at which
-socket, and which supply a pin switches, no database of a chip can know: that is compared with
-specs/outputs.toml, which has it from others' firmware.
+The signals of the boards' pins (bsp/*/pins.c, bsp/*/variant.c) and what the boards' files say of
+memories and interrupts (bsp/*/board.toml, and their base) are compared as well. Which pin comes
+out at which socket, and which supply a pin switches, no database of a chip can know: that is
+compared with specs/outputs.toml, which has it from others' firmware.
 
 build/registers/report.json has every fact. Exit status: 0 without differences, 1 with, 2 when
 nothing could be compared.
@@ -36,7 +36,7 @@ from keel.base.files import read_text, write_json
 from keel.boards.board import BOARD_FILE, Board, read_board
 from keel.boards.register_databases import Databases, Metapac
 from keel.boards.register_headers import Fact, instances_of, read_facts, read_headers
-from keel.boards.sockets import PINS, socket_differences
+from keel.boards.sockets import socket_differences, tables
 from keel.config import Table, Text, read_toml
 from keel.install import Toolchain
 
@@ -144,7 +144,7 @@ class Comparison:
             self.differences.append(f"{fact.where}: {fact.name} ({fact.block}): no counterpart")
 
 
-PIN_LINE = re.compile(r"KEEL_(?:ALTERNATE|OUTPUT)\((\w), (\d+)u, (\d+)u, (\w+), (\w+)\)")
+PIN_LINE = re.compile(r"KEEL_(?:ALTERNATE|OUTPUT|BUZZER|PPM)\((\w), (\d+)u, (\d+)u, (\w+), (\w+)\)")
 ANALOGUE_LINE = re.compile(r"KEEL_ANALOGUE\((\w), (\d+)u, (\d+)u\)")
 
 
@@ -160,10 +160,11 @@ def compare_analogue(where: str, text: str, package: Metapac, result: Comparison
 
 def compare_pins(root: Path, databases: Databases, result: Comparison) -> None:
     """The alternate functions and analogue channels in the boards' pin tables."""
-    for path in sorted(root.glob(PINS)):
+    for path, package in [
+        (path, databases.packages[name]) for name, paths in tables(root) for path in paths
+    ]:
         where = path.relative_to(root).as_posix()
         text = read_text(path)
-        package = databases.packages[path.parent.name]
         compare_analogue(where, text, package, result)
         for port, number, function, peripheral, signal in PIN_LINE.findall(text):
             pin = f"P{port}{number}"

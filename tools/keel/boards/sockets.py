@@ -8,16 +8,20 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from keel.base.files import read_text
+from keel.boards.board import BOARD_FILE, BoardFile, board_names
 from keel.config import Table, Text, read_toml
 
 SOCKETS = "specs/outputs.toml"
-PINS = "bsp/*/pins.c"
+TABLE = "keel_board_pins = {"  # The beginning of a board's pin table.
 OUTPUT_LINE = re.compile(r"KEEL_OUTPUT\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
 AXES = r"(-?\d), (-?\d), (-?\d)\)"
 INERTIAL_LINE = re.compile(r"KEEL_INERTIAL(?:_PAIR)?\((\w+), ((?:\w, \d+u, )+)" + AXES)
 MAGNETOMETER_LINE = re.compile(r"KEEL_MAGNETOMETER\(" + AXES)
 UART_LINE = re.compile(r"\[KEEL_LINE_(\w+)\] = \{KEEL_UART\((\w+),")
 ARMED_LINE = re.compile(r"KEEL_ARMED\((\w), (\d+)u\)")
+SAFETY_LINE = re.compile(r"KEEL_SAFETY\((\w), (\d+)u, (\w), (\d+)u\)")
+PPM_LINE = re.compile(r"KEEL_PPM\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
+BUZZER_LINE = re.compile(r"KEEL_BUZZER\((\w), (\d+)u, \d+u, (\w+), (\w+)\)")
 LEVEL_LINE = re.compile(r"KEEL_LEVEL\((\w), (\d+)u, (true|false)\)")
 
 
@@ -32,6 +36,9 @@ class Sockets(Table):
     magnetometer: Text | None = None
     lines: list[Text] = []
     armed: Text | None = None
+    safety: Text | None = None
+    ppm: Text | None = None
+    buzzer: Text | None = None
 
     @property
     def watched(self) -> list[str]:
@@ -60,6 +67,11 @@ def pins_in(text: str) -> list[str]:
     return [f"P{port}{number}" for port, number in re.findall(r"(\w), (\d+)u", text)]
 
 
+def channels_in(line: re.Pattern[str], text: str) -> list[str]:
+    """Pins with their timers' channels."""
+    return [f"P{port}{number} {timer}_{name}" for port, number, timer, name in line.findall(text)]
+
+
 def stated(text: str) -> dict[str, list[str]]:
     """What a pin table says, by the names of specs/outputs.toml."""
     return {
@@ -67,10 +79,7 @@ def stated(text: str) -> dict[str, list[str]]:
             " ".join([kind, *pins_in(pins), *axes])
             for kind, pins, *axes in INERTIAL_LINE.findall(text)
         ],
-        "outputs": [
-            f"P{port}{number} {timer}_{channel}"
-            for port, number, timer, channel in OUTPUT_LINE.findall(text)
-        ],
+        "outputs": channels_in(OUTPUT_LINE, text),
         "levels": sorted(
             f"P{port}{number} {'high' if high == 'true' else 'low'}"
             for port, number, high in LEVEL_LINE.findall(text)
@@ -78,6 +87,12 @@ def stated(text: str) -> dict[str, list[str]]:
         "magnetometer": [" ".join(axes) for axes in MAGNETOMETER_LINE.findall(text)],
         "lines": [" ".join(line) for line in UART_LINE.findall(text)],
         "armed": [f"P{port}{number}" for port, number in ARMED_LINE.findall(text)],
+        "safety": [
+            f"P{port}{number} P{other}{another}"
+            for port, number, other, another in SAFETY_LINE.findall(text)
+        ],
+        "ppm": channels_in(PPM_LINE, text),
+        "buzzer": channels_in(BUZZER_LINE, text),
     }
 
 
@@ -91,19 +106,35 @@ def expected(board: Sockets) -> dict[str, list[str]]:
         "magnetometer": [board.magnetometer] if board.magnetometer else [],
         "lines": board.lines,
         "armed": [board.armed] if board.armed else [],
+        "safety": [board.safety] if board.safety else [],
+        "ppm": [board.ppm] if board.ppm else [],
+        "buzzer": [board.buzzer] if board.buzzer else [],
     }
 
 
+def tables(root: Path) -> Iterator[tuple[str, list[Path]]]:
+    """The boards with a pin table, with the files of their own: boards may share one."""
+    for name in board_names(root):
+        own = read_toml(root / f"bsp/{name}/{BOARD_FILE}", BoardFile).sources
+        paths = [
+            path
+            for source in own
+            for path in (sorted((root / source).glob("*.c")) or [root / source])
+        ]
+        if any(path.suffix == ".c" and TABLE in read_text(path) for path in paths):
+            yield name, paths
+
+
 def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
-    """Each pin table, how much of it was compared, and what is not as others say."""
+    """Each board with a pin table, how much of it was compared, and what is not as others say."""
     known = read_sockets(root)
-    for path in sorted(root.glob(PINS)):
-        where = path.relative_to(root).as_posix()
-        board = known.pop(path.parent.name, None)
+    for name, paths in tables(root):
+        where = f"bsp/{name}"
+        board = known.pop(name, None)
         if board is None:
             yield where, 0, [f"{where}: {SOCKETS} does not have this board"]
             continue
-        others, own = expected(board), stated(read_text(path))
+        others, own = expected(board), stated("".join(map(read_text, paths)))
         wrong = [
             f"{where}: {key} {', '.join(own[key])}; {SOCKETS} has {', '.join(others[key])}"
             for key in others
@@ -111,4 +142,4 @@ def socket_differences(root: Path) -> Iterator[tuple[str, int, list[str]]]:
         ]
         yield where, sum(map(len, own.values())), wrong
     for name in known:
-        yield SOCKETS, 0, [f"{SOCKETS}: {name}: there is no bsp/{name}/pins.c"]
+        yield SOCKETS, 0, [f"{SOCKETS}: {name}: there is no such board with a pin table"]

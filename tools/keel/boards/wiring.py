@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from keel.boards.spi import SPI1, SPI2, SPI4, Bus, Pin, Seat
 
@@ -47,6 +47,8 @@ class Wiring:
     seats: tuple[Seat, ...]
     lines: Mapping[str, LineWiring] = field(default_factory=dict)
     i2c: tuple[Pin, Pin] | None = None  # SCL and SDA of I2C 3, with an IST8310.
+    button: Pin | None = None  # Of the safety switch: it joins its pin to 3.3 V.
+    ppm: Pin | None = None  # Of a receiver of PPM, which only pulls it low.
 
 
 def icm20689(select: Pin, supply: Pin | None) -> Seat:
@@ -79,5 +81,11 @@ WIRINGS = {
             "telemetry": LineWiring("USART2", 1, 5, (3, 6), 7, (APB1ENR, 17), 54_000_000),
         },
         ((7, 7), (7, 8)),
+        (4, 10),
+        (8, 5),
     ),
 }
+
+# After FMUv5, with an ICM-20602 besides.
+ICM20602 = Seat("ICM-20602", SPI1, (5, 3), 10.0, SENSORS_ON, 11_000)
+WIRINGS["cuav_v5"] = replace(WIRINGS["fmuv5"], seats=(*WIRINGS["fmuv5"].seats, ICM20602))
