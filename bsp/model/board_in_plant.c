@@ -265,10 +265,9 @@ int board_break(uint32_t fault, uint32_t which, uint32_t amount, uint32_t on)
 
 /* --- What it shows. --- */
 
-/* As the model has them. */
 const board_edge_t *board_edges(uint32_t *count)
 {
-    return (const board_edge_t *)model_edges(count);
+    return model_edges(count);
 }
 
 uint32_t board_number(uint32_t address, uint32_t size)

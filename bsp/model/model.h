@@ -12,6 +12,7 @@
 #ifndef MODEL_H
 #define MODEL_H
 
+#include "board_in_plant.h"
 #include "sim.h"
 
 #include <stdbool.h>
@@ -196,12 +197,8 @@ typedef enum model_level { MODEL_FLOATS, MODEL_LOW, MODEL_HIGH, MODEL_UNKNOWN } 
 /** What happens to the chip: the exception that it enters, or a reset, by its cause. */
 #define MODEL_RESET_EVENT 256u
 
-/** A change. */
-typedef struct model_edge {
-    uint64_t at; /**< In ticks. */
-    uint32_t line;
-    uint32_t level;
-} model_edge_t;
+/** A change, in ticks. */
+typedef board_edge_t model_edge_t;
 
 /** Power up: nothing is noted yet. */
 void model_pins_start(void);
