@@ -197,7 +197,7 @@ static void break_line(uint32_t fault, uint32_t amount, bool on)
     const model_disturbance_t disturbance = {
         .silent = on && (fault == (uint32_t)BOARD_GPS_SILENT),
         .unplugged = on && (fault == (uint32_t)BOARD_RADIO_UNPLUGGED),
-        .noise = (on && (fault == (uint32_t)BOARD_RADIO_NOISE)) ? amount : 0u};
+        .noise = (on && (fault == (uint32_t)BOARD_RADIO_LINE_NOISE)) ? amount : 0u};
 
     model_line_disturb((fault == (uint32_t)BOARD_GPS_SILENT) ? MODEL_SATELLITES : MODEL_PILOT,
                        &disturbance);
@@ -255,7 +255,7 @@ int board_break(uint32_t fault, uint32_t which, uint32_t amount, uint32_t on)
         return 0;
     case BOARD_GPS_SILENT:
     case BOARD_RADIO_UNPLUGGED:
-    case BOARD_RADIO_NOISE:
+    case BOARD_RADIO_LINE_NOISE:
         break_line(fault, amount, on != 0u);
         return 0;
     default:

@@ -68,7 +68,7 @@ typedef enum board_fault {
     BOARD_I2C_LOW,         /**< SDA is held low: for `amount` clocks, or, with 0, until it ends. */
     BOARD_GPS_SILENT,      /**< The satellite receiver sends nothing. */
     BOARD_RADIO_UNPLUGGED, /**< Nobody drives the line of the pilot's receiver. */
-    BOARD_RADIO_NOISE,     /**< Of `amount` in 1000 of its bytes something goes wrong. */
+    BOARD_RADIO_LINE_NOISE,  /**< Of `amount` in 1000 of its bytes something goes wrong. */
     BOARD_OSCILLATOR_LOST, /**< The crystal stands still. */
     BOARD_TASK_HANGS,      /**< The next run of task `which`, from 0 on, does not end. */
     BOARD_CORE_STOPS,      /**< No instruction is executed any more, until a reset. */
@@ -76,7 +76,7 @@ typedef enum board_fault {
                                 so many bytes more were written to the memory of parameters. */
 } board_fault_t;
 
-/** Something breaks, or is mended: from GPS_SILENT to RADIO_NOISE and those before, by `on` 0.
+/** Something breaks or, with `on` 0, is mended; the last four are not.
  *
  * From the first fault on the board behaves as hardware does: exceptions are the image's, and a
  * watchdog that starves resets the chip. Before both end the flight, as what must not be.

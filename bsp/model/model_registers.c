@@ -251,6 +251,16 @@ static void write_system(uint32_t offset, uint32_t value)
     }
 }
 
+/* The count is that of RLR from the next start or feeding on (RM0410, 30.3). */
+static void take_reload(void)
+{
+    const uint64_t divisor = 4u << *model_word(IWDG_BASE + offsetof(keel_iwdg_t, PR));
+    const uint64_t count = *model_word(IWDG_BASE + offsetof(keel_iwdg_t, RLR)) + 1u;
+
+    starves_after = (count * divisor * 1000u * MODEL_TICKS_PER_US) / LSI_KHZ;
+    fed_at = model_now();
+}
+
 static void write_watchdog(uint32_t offset, uint32_t value)
 {
     *model_word(IWDG_BASE + offset) = value;
@@ -260,13 +270,9 @@ static void write_watchdog(uint32_t offset, uint32_t value)
     if (!model_is_fed()) {
         model_fail("the watchdog was fed too late");
     }
-    if (value == KEY_START) {
-        const uint64_t divisor = 4u << *model_word(IWDG_BASE + offsetof(keel_iwdg_t, PR));
-        const uint64_t count = *model_word(IWDG_BASE + offsetof(keel_iwdg_t, RLR)) + 1u;
-
-        starves_after = (count * divisor * 1000u * MODEL_TICKS_PER_US) / LSI_KHZ;
+    if ((value == KEY_START) || ((value == KEY_FEED) && (starves_after != 0u))) {
+        take_reload();
     }
-    fed_at = model_now();
 }
 
 bool model_is_fed(void)

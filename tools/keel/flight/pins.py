@@ -23,7 +23,7 @@ TICKS = 432  # Of a microsecond.
 SHORTEST_US, LONGEST_US, PERIOD_US = 1000.0, 2000.0, 2500.0
 PERIOD_SHARE = 0.001
 LOW_WITHIN_US = 1000.0
-OFF_US = 20.0  # From the first output that is switched off to nARMED.
+OFF_US = 1000.0  # From the first output that is switched off to nARMED, at most.
 CAUSES = ("supply", "software", "watchdog")
 NMI = 2
 
