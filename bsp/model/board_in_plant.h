@@ -63,16 +63,16 @@ uint32_t board_number(uint32_t address, uint32_t size);
 
 /** What can break at the board. */
 typedef enum board_fault {
-    BOARD_IMU_UNPLUGGED,   /**< The inertial unit `which`, from 1 on: nobody drives its line. */
-    BOARD_SPI_LOW,         /**< What SPI `which`, 1, 2 or 4, reads is low. */
-    BOARD_I2C_LOW,         /**< SDA is held low: for `amount` clocks, or, with 0, until it ends. */
-    BOARD_GPS_SILENT,      /**< The satellite receiver sends nothing. */
-    BOARD_RADIO_UNPLUGGED, /**< Nobody drives the line of the pilot's receiver. */
-    BOARD_RADIO_LINE_NOISE,  /**< Of `amount` in 1000 of its bytes something goes wrong. */
-    BOARD_OSCILLATOR_LOST, /**< The crystal stands still. */
-    BOARD_TASK_HANGS,      /**< The next run of task `which`, from 0 on, does not end. */
-    BOARD_CORE_STOPS,      /**< No instruction is executed any more, until a reset. */
-    BOARD_BROWN_OUT        /**< The supply goes and comes back: at once, or, with an `amount`, when
+    BOARD_IMU_UNPLUGGED,    /**< The inertial unit `which`, from 1 on: nobody drives its line. */
+    BOARD_SPI_LOW,          /**< What SPI `which`, 1, 2 or 4, reads is low. */
+    BOARD_I2C_LOW,          /**< SDA is held low: for `amount` clocks, or, with 0, until it ends. */
+    BOARD_GPS_SILENT,       /**< The satellite receiver sends nothing. */
+    BOARD_RADIO_UNPLUGGED,  /**< Nobody drives the line of the pilot's receiver. */
+    BOARD_RADIO_LINE_NOISE, /**< Of `amount` in 1000 of its bytes something goes wrong. */
+    BOARD_OSCILLATOR_LOST,  /**< The crystal stands still. */
+    BOARD_TASK_HANGS,       /**< The next run of task `which`, from 0 on, does not end. */
+    BOARD_CORE_STOPS,       /**< No instruction is executed any more, until a reset. */
+    BOARD_BROWN_OUT         /**< The supply goes and comes back: at once, or, with an `amount`, when
                                 so many bytes more were written to the memory of parameters. */
 } board_fault_t;
 
@@ -91,11 +91,11 @@ typedef struct board_edge {
     uint32_t level;
 } board_edge_t;
 
-#define BOARD_TICKS 432
+#define BOARD_TICKS   432
 #define BOARD_OUTPUTS 8
-#define BOARD_ARMED 8
-#define BOARD_EVENT 9
-#define BOARD_RESET 256
+#define BOARD_ARMED   8
+#define BOARD_EVENT   9
+#define BOARD_RESET   256
 
 /** All changes since power-up, in the order of their times: of the lines 0 to 7, FMU_CH1 to 8, and
  * BOARD_ARMED, nARMED, each to 0, floating, 1, low, or 2, high. BOARD_EVENT is no line: its level

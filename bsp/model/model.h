@@ -105,7 +105,11 @@ uint8_t *model_memory(uint32_t address, uint32_t size);
 void model_guard(bool on);
 
 /** Why the chip is reset. */
-typedef enum model_cause { MODEL_BY_POWER, MODEL_BY_SOFTWARE, MODEL_BY_WATCHDOG } model_cause_t;
+typedef enum model_cause {
+    MODEL_BY_POWER,
+    MODEL_BY_SOFTWARE,
+    MODEL_BY_WATCHDOG
+} model_cause_t;
 
 /** A reset is asked for: it comes before the next block of instructions. */
 void model_reset(model_cause_t cause);
@@ -192,7 +196,12 @@ const char *model_text(void);
 #define MODEL_EVENT   9u /* And what is no line: model_event_t. */
 
 /** What a line does. */
-typedef enum model_level { MODEL_FLOATS, MODEL_LOW, MODEL_HIGH, MODEL_UNKNOWN } model_level_t;
+typedef enum model_level {
+    MODEL_FLOATS,
+    MODEL_LOW,
+    MODEL_HIGH,
+    MODEL_UNKNOWN
+} model_level_t;
 
 /** What happens to the chip: the exception that it enters, or a reset, by its cause. */
 #define MODEL_RESET_EVENT 256u

@@ -114,7 +114,7 @@ static uint32_t timer_level(const model_timer_t *timer, uint32_t channel, uint64
         return ((gate & TIM_BDTR_OSSI) != 0u) ? MODEL_LOW : MODEL_FLOATS;
     }
     return ((at - timer->from) < (timer->active[channel] * count_ticks(timer))) ? MODEL_HIGH
-                                                                               : MODEL_LOW;
+                                                                                : MODEL_LOW;
 }
 
 static uint32_t output_level(const model_output_t *output, uint64_t at)
@@ -292,9 +292,8 @@ void model_pins_start(void)
 
 void model_pins_reset(void)
 {
-    static const model_timer_t fresh[TIMERS] = {{.base = TIM1_BASE, .has_gate = true},
-                                                {.base = TIM4_BASE},
-                                                {.base = TIM12_BASE}};
+    static const model_timer_t fresh[TIMERS] = {
+        {.base = TIM1_BASE, .has_gate = true}, {.base = TIM4_BASE}, {.base = TIM12_BASE}};
 
     memcpy(timers, fresh, sizeof timers);
     clock_ticks = FIRST_TICKS;

@@ -28,12 +28,12 @@
 #define WIDE_FROM 0x1Du /* The upper five bits of an instruction of two halfwords. */
 #define CACHED    0x10000u
 
-#define STACKED       32u /* Bytes that an exception stacks. */
-#define THUMB         (1u << 24u)
-#define TO_THREAD     0xFFFFFFF9u /* EXC_RETURN: to the main stack, without the FPU's registers. */
-#define USAGE_FAULT   6u
-#define UNDEFINED     0x10000u /* UNDEFINSTR, of CFSR. */
-#define NO_TASK       UINT32_MAX
+#define STACKED     32u /* Bytes that an exception stacks. */
+#define THUMB       (1u << 24u)
+#define TO_THREAD   0xFFFFFFF9u /* EXC_RETURN: to the main stack, without the FPU's registers. */
+#define USAGE_FAULT 6u
+#define UNDEFINED   0x10000u /* UNDEFINSTR, of CFSR. */
+#define NO_TASK     UINT32_MAX
 
 /* What the chip's maker measured: the reference at 3.3 V, the temperature at 30 and 110 degrees. */
 static const uint16_t calibration[3] = {1502u, 943u, 1186u};
@@ -97,7 +97,7 @@ static bool hangs;          /* No instruction is executed, … */
 static uint32_t hangs_with; /* … or none from the end of this task's next run on. */
 static uint32_t pending;    /* An exception; 0: none. */
 static uint32_t pending_status;
-static uint32_t active;     /* Likewise. */
+static uint32_t active; /* Likewise. */
 static uint32_t watched;
 static model_delay_t delays[TASKS];
 static model_block_t blocks[CACHED];

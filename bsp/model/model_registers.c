@@ -38,14 +38,14 @@
 #define SLOW_TICKS 27u /* … and at 16 MHz. */
 #define OF_PLL     2u  /* The core's clock. */
 
-#define NMI        2u         /* The exception. */
-#define CSS_FAILED BITS(7u, 1u) /* Of CIR: the clock security system. */
+#define NMI            2u            /* The exception. */
+#define CSS_FAILED     BITS(7u, 1u)  /* Of CIR: the clock security system. */
 #define ICSR_RETTOBASE BITS(11u, 1u) /* No other exception is active. */
 /* Of CSR: flags, a reset by software, and that the pin went low, as it does by every reset. */
 #define CSR_FLAGS   0xFE000000u
 #define CSR_SFTRSTF BITS(28u, 1u)
 #define CSR_PINRSTF BITS(26u, 1u)
-#define I2C_SDA    8u         /* Of port H. */
+#define I2C_SDA     8u /* Of port H. */
 
 #define POLLS      3u   /* So many readings of the clock in a row are a wait for a time. */
 #define POLL_TICKS 200u /* One behind the other. */
@@ -55,9 +55,9 @@
 #define KEY_START 0xCCCCu
 #define LSI_KHZ   32u
 
-#define BYTE_TICKS  (MODEL_TICKS_PER_US * 87u) /* Of the console, at 115200 baud. */
-#define ANSWER_US   160u                       /* A command's to a card that is not there. */
-#define CONVERT     12u                        /* Cycles beside those to sample. */
+#define BYTE_TICKS (MODEL_TICKS_PER_US * 87u) /* Of the console, at 115200 baud. */
+#define ANSWER_US  160u                       /* A command's to a card that is not there. */
+#define CONVERT    12u                        /* Cycles beside those to sample. */
 
 typedef uint32_t (*model_reader_t)(uint32_t offset);
 typedef void (*model_writer_t)(uint32_t offset, uint32_t value);

@@ -11,10 +11,12 @@ from __future__ import annotations
 import json
 import os
 import pickle
+import re
 import struct
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
@@ -25,11 +27,13 @@ from keel.boards.dwarf import Variables
 from keel.boards.packages import load
 from keel.config import ConfigError
 from keel.flight import board, scenario
+from keel.flight import command as fly
 from keel.flight.board import BoardCopter
 from keel.flight.faults import Faults
 from keel.flight.library import Copter
 from keel.flight.loop import Crashed, Flight, NotFlown, Order, Trace, state_names
 from keel.flight.pins import CAUSES, HIGH, NMI, RESET
+from keel.flight.power import Battery
 from keel.install import Toolchain
 
 __all__ = ["flown", "made"]  # Fixtures.
@@ -147,10 +151,14 @@ def test_they_begin_alike() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_host_refuses_them(copter: Copter, name: str) -> None:
-    found = scenario.read(name)
-    with pytest.raises(ToolError, match=r"is a board's own, .* BOARD=fmuv5 flies it"):
-        Flight(copter, Order(found, "jsbsim", found.seed))
+def test_the_host_refuses_them(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Before anything is built; and a flight that somebody else begins, as `make sim` does."""
+    assert fly.main(["--scenario", name]) == 2
+    told = capsys.readouterr().err
+    assert re.search(rf"{name}: fault \w+ is a board's own, .* BOARD=fmuv5 flies it", told)
+    host = cast(Copter, SimpleNamespace(tasks=[], has_board=False))
+    with pytest.raises(ToolError, match="is a board's own"):
+        Faults(scenario.read(name).fault, host, Battery())
 
 
 @pytest.mark.parametrize(

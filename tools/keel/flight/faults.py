@@ -38,10 +38,10 @@ class Faults:
 
     def __post_init__(self) -> None:
         for fault in self.faults:
-            if fault.task is not None and fault.task not in self.copter.tasks:
-                raise ToolError(unknown("task", fault.task, self.copter.tasks))
             if fault.kind in (*BOARD_FAULTS, *CHIP_FAULTS) and not self.copter.has_board:
                 raise ToolError(NO_BOARD.format(fault.kind))
+            if fault.task is not None and fault.task not in self.copter.tasks:
+                raise ToolError(unknown("task", fault.task, self.copter.tasks))
 
     def before_flight(self, since_power_up_s: float) -> None:
         """What is so from power-up on, and ends at a time since then."""

@@ -129,7 +129,7 @@ def judged_pulses(pins: Pins, pulses: list[Stretch]) -> Iterator[str]:
             yield f"rises {at}, while it is not armed"
             continue
         pins.pulses += 1
-        if pulse.to_us >= pins.armed[turn][1] - OFF_US and width_us <= LONGEST_US:
+        if pulse.to_us >= pins.armed[turn][1] - OFF_US and width_us < SHORTEST_US:
             pins.cut += 1
         else:
             pins.width_us = widened(pins.width_us, width_us)
