@@ -41,6 +41,7 @@ __all__ = ["flown", "made"]  # Fixtures.
 NAMES = [name for name in scenario.names() if scenario.of_board(scenario.read(name))]
 STARTS_S = 4.9  # Just before the faults.
 WATCHDOG_US = 50_000  # With an oscillator of 32 kHz, which the model has.
+PERIOD_US = 20_000  # Of the task that hangs.
 
 
 @dataclass(frozen=True)
@@ -217,7 +218,7 @@ def test_a_magnetometer_that_holds_its_bus(flies: Callable[[str, float], Result]
         if " fields " in line
     ]
     gained = [after - before for before, after in zip(fields, fields[1:], strict=False)]
-    assert min(gained) == 0 and gained[-1] >= 40
+    assert min(gained) == 0 and gained[-1] >= 20  # Of 50 a second, from 0.74 s before.
     assert state_names(result.trace) == ["armed", "flying"]
 
 
@@ -246,16 +247,21 @@ def test_a_line_with_noise(flies: Callable[[str, float], Result]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "begins", "known_by"),
+    ("name", "begins", "within_us", "known_by", "times"),
     [
-        ("board_task_hangs", "reset by watchdog", "0xb0a20200"),
-        ("board_core_stops", "reset by watchdog", "0xb0a20200"),
-        ("board_oscillator_lost", "NMI", "exception 2"),
-        ("board_brown_out", "reset by supply", "Keel on fmuv5"),
+        ("board_task_hangs", "reset by watchdog", WATCHDOG_US + PERIOD_US, "0xb0a20200", 1),
+        ("board_core_stops", "reset by watchdog", WATCHDOG_US, "0xb0a20200", 1),
+        ("board_oscillator_lost", "NMI", 0, "exception 2", 1),
+        ("board_brown_out", "reset by supply", 0, "Keel on fmuv5", 2),
     ],
 )
 def test_the_chip_starts_anew_and_motors_stand(
-    flies: Callable[[str, float], Result], name: str, begins: str, known_by: str
+    flies: Callable[[str, float], Result],
+    name: str,
+    begins: str,
+    within_us: int,
+    known_by: str,
+    times: int,
 ) -> None:
     result = flies(name, 6.5)
     pins = result.trace.pins
@@ -265,11 +271,11 @@ def test_the_chip_starts_anew_and_motors_stand(
     fault = pins.events[1]
     assert fault.name == begins
     since_us = fault.at_us - 1e6 * (result.trace.armed_s + 5.0)
-    assert -2000.0 <= since_us <= WATCHDOG_US + 2000.0
+    assert -2000.0 <= since_us <= within_us + 2000.0
     assert pins.low_after_us[begins] <= 1000.0
     assert not column(result, "motors_on", 5.2).any()
     assert state_names(result.trace)[-1] == "disarmed"
-    assert known_by in result.text.rpartition("t 1 s")[2]
+    assert result.text.count(known_by) == times
 
 
 # --- A brown-out while parameters are saved. ---
@@ -283,17 +289,17 @@ def test_a_brown_out_within_a_save_leaves_the_old_set_or_the_new(
     station = common.MAVLink(None, srcSystem=255)
     taken, value = kept(made)
     seen = set()
-    for number, saved_bytes in enumerate((1, 12, 40, 90)):
+    for number, saved_bytes in enumerate((1, 12, 60)):
         memory = tmp_path / f"memory{number}"
         flown.start(100, False, memory=memory)
         flown.set("MAG_CUR_X", 0.25)
         flown.start(100, False, memory=memory)
-        assert rest(flown, 0, 700) == 0
+        assert rest(flown, 0, 1000) == 0
         assert real(flown, value) == 0.25
         order = station.param_set_encode(1, 1, b"MAG_CUR_X", 0.5, common.MAV_PARAM_TYPE_REAL32)
         flown.breaks("brown_out", 0, saved_bytes, True)
         flown.send(0, order.pack(station))
-        assert rest(flown, 700, 2200) == 0
+        assert rest(flown, 1000, 2500) == 0
         assert resets(flown) == ["supply"]
         assert flown.text().count("Keel on fmuv5") == 2
         assert flown.number_at(taken) == 1
@@ -307,7 +313,7 @@ def kept(made: Path) -> tuple[Any, Any]:
     variables = Variables(Toolchain(), Path(image["elf"]))
     try:
         taken = variables.find(board.MAIN, "copter").part("parameters.loaded.taken")
-        place = variables.find("examples/copter/settings.c", "copter_settings")
+        place = variables.find("examples/copter/parameter_store.c", "copter_settings")
         return taken, place.part("field_per_ampere[0]")
     finally:
         variables.close()
