@@ -289,7 +289,7 @@ def test_a_brown_out_within_a_save_leaves_the_old_set_or_the_new(
     station = common.MAVLink(None, srcSystem=255)
     taken, value = kept(made)
     seen = set()
-    for number, saved_bytes in enumerate((1, 12, 60)):
+    for number, saved_bytes in enumerate((1, 12, 20)):
         memory = tmp_path / f"memory{number}"
         flown.start(100, False, memory=memory)
         flown.set("MAG_CUR_X", 0.25)
