@@ -249,8 +249,8 @@ def test_a_line_with_noise(flies: Callable[[str, float], Result]) -> None:
 @pytest.mark.parametrize(
     ("name", "begins", "within_us", "known_by", "times"),
     [
-        ("board_task_hangs", "reset by watchdog", WATCHDOG_US + PERIOD_US, "0xb0a20200", 1),
-        ("board_core_stops", "reset by watchdog", WATCHDOG_US, "0xb0a20200", 1),
+        ("board_task_hangs", "reset by watchdog", WATCHDOG_US + PERIOD_US, "code 0xb0a20200", 1),
+        ("board_core_stops", "reset by watchdog", WATCHDOG_US, "code 0xb0a20200", 1),
         ("board_oscillator_lost", "NMI", 0, "exception 2", 1),
         ("board_brown_out", "reset by supply", 0, "Keel on fmuv5", 2),
     ],
