@@ -67,8 +67,12 @@ void keel_board_outputs_hold(void);
 
 /* For the start-up code, in the order in which it needs them. */
 
-/** Its first steps. ITCM is filled, no other memory is; keeps to its stack. */
+/** Its first steps: outputs low. No memory is filled, so it calls nothing in ITCM; keeps to its
+ *  stack. */
 void keel_board_early(void);
+
+/** Opens the memory that keeps the record of a fault. ITCM is filled, no other memory is. */
+void keel_board_open_record(void);
 
 /** The regions for the MPU. */
 extern const keel_mpu_region_t keel_board_regions[];

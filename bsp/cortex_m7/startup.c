@@ -73,7 +73,6 @@ static void stop_leftovers(void)
     __asm volatile("dsb\n\tisb\n\tmsr basepri, %0\n\tcpsie f\n\tcpsie i" ::"r"(0u) : "memory");
 }
 
-/* Before anything else that the boards do: their first steps call what lies there. */
 static void fill_itcm(void)
 {
     copy(keel_itcm_load, keel_itcm_start, keel_itcm_end);
@@ -137,8 +136,9 @@ void keel_reset(void)
     stop_leftovers();
     start_fpu();
     start_faults();
-    fill_itcm();
     keel_board_early();
+    fill_itcm();
+    keel_board_open_record();
     paint_stack();
     fill_memory();
     keel_mpu_start(keel_board_regions, keel_board_region_count);

@@ -15,6 +15,7 @@
 #define PIECE   64u
 #define NAME    4096u
 #define PLACES  128u
+#define UNITS   2u
 
 static board_image_t image; /* Its path and places are these: */
 static char path[NAME];
@@ -114,6 +115,9 @@ int sim_start(const sim_options_t *options)
         model_fail("%s", refusal);
         return 1;
     }
+    model_registers_start();
+    model_pins_start();
+    model_buses_start();
     model_devices_start();
     model_lines_start();
     model_watch(image.end_run);
@@ -179,16 +183,92 @@ int sim_run_until(uint64_t time_us)
     model_devices_turn();
     model_clock_limit(time_us * MODEL_TICKS_PER_US);
     model_processor_run();
-    if (!model_is_fed()) {
-        model_fail("the watchdog was not fed");
-    }
+    model_pins_pass();
     if (model_fram_has_changed() && !keep_fram()) {
         model_fail("what the FRAM holds could not be kept");
     }
     return model_clock.failed ? 1 : 0;
 }
 
+/* --- What breaks. --- */
+
+static void break_line(uint32_t fault, uint32_t amount, bool on)
+{
+    const model_disturbance_t disturbance = {
+        .silent = on && (fault == (uint32_t)BOARD_GPS_SILENT),
+        .unplugged = on && (fault == (uint32_t)BOARD_RADIO_UNPLUGGED),
+        .noise = (on && (fault == (uint32_t)BOARD_RADIO_LINE_NOISE)) ? amount : 0u};
+
+    model_line_disturb((fault == (uint32_t)BOARD_GPS_SILENT) ? MODEL_SATELLITES : MODEL_PILOT,
+                       &disturbance);
+}
+
+static void cut_supply(uint32_t bytes)
+{
+    if (bytes > 0u) {
+        model_fram_cut(bytes);
+    } else {
+        model_reset(MODEL_BY_POWER);
+    }
+}
+
+/* What the chip itself does not get over. */
+static int break_chip(uint32_t fault, uint32_t which, uint32_t amount)
+{
+    switch (fault) {
+    case BOARD_OSCILLATOR_LOST:
+        model_lose_oscillator();
+        break;
+    case BOARD_TASK_HANGS:
+        model_hang_task(which);
+        break;
+    case BOARD_CORE_STOPS:
+        model_hang();
+        break;
+    case BOARD_BROWN_OUT:
+        cut_supply(amount);
+        break;
+    default:
+        return 1;
+    }
+    return 0;
+}
+
+int board_break(uint32_t fault, uint32_t which, uint32_t amount, uint32_t on)
+{
+    model_expect_faults();
+    switch (fault) {
+    case BOARD_IMU_UNPLUGGED:
+        if ((which < 1u) || (which > UNITS)) {
+            return 1;
+        }
+        model_unit_unplug(which - 1u, on != 0u);
+        return 0;
+    case BOARD_SPI_LOW:
+        if ((which != 1u) && (which != 2u) && (which != 4u)) {
+            return 1;
+        }
+        model_spi_hold(which, on != 0u);
+        return 0;
+    case BOARD_I2C_LOW:
+        model_i2c_hold(on != 0u, amount);
+        return 0;
+    case BOARD_GPS_SILENT:
+    case BOARD_RADIO_UNPLUGGED:
+    case BOARD_RADIO_LINE_NOISE:
+        break_line(fault, amount, on != 0u);
+        return 0;
+    default:
+        return break_chip(fault, which, amount);
+    }
+}
+
 /* --- What it shows. --- */
+
+const board_edge_t *board_edges(uint32_t *count)
+{
+    return model_edges(count);
+}
 
 uint32_t board_number(uint32_t address, uint32_t size)
 {

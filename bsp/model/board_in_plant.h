@@ -61,6 +61,48 @@ const char *board_problem(void);
 /** A number of up to 4 bytes in the image's memory; 0 where no memory is. */
 uint32_t board_number(uint32_t address, uint32_t size);
 
+/** What can break at the board. */
+typedef enum board_fault {
+    BOARD_IMU_UNPLUGGED,    /**< The inertial unit `which`, from 1 on: nobody drives its line. */
+    BOARD_SPI_LOW,          /**< What SPI `which`, 1, 2 or 4, reads is low. */
+    BOARD_I2C_LOW,          /**< SDA is held low: for `amount` clocks, or, with 0, until it ends. */
+    BOARD_GPS_SILENT,       /**< The satellite receiver sends nothing. */
+    BOARD_RADIO_UNPLUGGED,  /**< Nobody drives the line of the pilot's receiver. */
+    BOARD_RADIO_LINE_NOISE, /**< Of `amount` in 1000 of its bytes something goes wrong. */
+    BOARD_OSCILLATOR_LOST,  /**< The crystal stands still. */
+    BOARD_TASK_HANGS,       /**< The next run of task `which`, from 0 on, does not end. */
+    BOARD_CORE_STOPS,       /**< No instruction is executed any more, until a reset. */
+    BOARD_BROWN_OUT         /**< The supply goes and comes back: at once, or, with an `amount`, when
+                                so many bytes more were written to the memory of parameters. */
+} board_fault_t;
+
+/** Something breaks or, with `on` 0, is mended; the last four are not.
+ *
+ * From the first fault on the board behaves as hardware does: exceptions are the image's, and a
+ * watchdog that starves resets the chip. Before both end the flight, as what must not be.
+ *
+ * @return 0; 1: there is no such fault, unit or bus */
+int board_break(uint32_t fault, uint32_t which, uint32_t amount, uint32_t on);
+
+/** A change of an output's pin, or what happens to the chip. */
+typedef struct board_edge {
+    uint64_t at; /**< Since power-up, in BOARD_TICKS of a microsecond. */
+    uint32_t line;
+    uint32_t level;
+} board_edge_t;
+
+#define BOARD_TICKS   432
+#define BOARD_OUTPUTS 8
+#define BOARD_ARMED   8
+#define BOARD_EVENT   9
+#define BOARD_RESET   256
+
+/** All changes since power-up, in the order of their times: of the lines 0 to 7, FMU_CH1 to 8, and
+ * BOARD_ARMED, nARMED, each to 0, floating, 1, low, or 2, high. BOARD_EVENT is no line: its level
+ * is the number of an exception that begins, or BOARD_RESET and why the chip is reset: 0 supply, 1
+ * software, 2 watchdog. */
+const board_edge_t *board_edges(uint32_t *count);
+
 /** What it said on its console; there until the next call. */
 const char *board_text(void);
 

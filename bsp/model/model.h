@@ -12,6 +12,7 @@
 #ifndef MODEL_H
 #define MODEL_H
 
+#include "board_in_plant.h"
 #include "sim.h"
 
 #include <stdbool.h>
@@ -103,8 +104,31 @@ uint8_t *model_memory(uint32_t address, uint32_t size);
 /** The protection of memory is switched: guards hold while it is on. */
 void model_guard(bool on);
 
-/** A reset is asked for. */
-void model_reset(void);
+/** Why the chip is reset. */
+typedef enum model_cause {
+    MODEL_BY_POWER,
+    MODEL_BY_SOFTWARE,
+    MODEL_BY_WATCHDOG
+} model_cause_t;
+
+/** A reset is asked for: it comes before the next block of instructions. */
+void model_reset(model_cause_t cause);
+
+/** From now on faults are the board's, as on hardware: exceptions go to the image's handlers, and
+ * the watchdog resets. Else both end the flight. */
+void model_expect_faults(void);
+
+/** An exception is pending, with what CFSR says: it comes before the next block. */
+void model_except(uint32_t number, uint32_t status);
+
+/** The number of the exception that is active; 0: none. */
+uint32_t model_exception(void);
+
+/** From now on no instruction is executed, until a reset. */
+void model_hang(void);
+
+/** The same from the end of a task's next run on. */
+void model_hang_task(uint32_t task);
 
 /** A function of the image at whose entry time passes: the end of a task's run, with the task as
  * its second argument. */
@@ -117,8 +141,14 @@ void model_delay(uint32_t task, uint32_t runs, uint32_t extra_us);
 /** @name Registers. */
 /** @{ */
 
+/** Power up: nothing is said yet, and all clocks can run. */
+void model_registers_start(void);
+
 /** As a reset leaves them. */
-void model_registers_reset(void);
+void model_registers_reset(model_cause_t cause);
+
+/** The oscillator stands still, for good. */
+void model_lose_oscillator(void);
 
 /** A register of a peripheral, or of the core, is read: bytes of it. */
 uint32_t model_read(uint32_t address, uint32_t size);
@@ -143,20 +173,68 @@ bool model_pin_is_low(uint32_t port, uint32_t pin);
 /** Whether a pin has an alternate function, and which. */
 bool model_pin_has(uint32_t port, uint32_t pin, uint32_t function);
 
-/** The pulse that leaves an output of FMU_CH1 to FMU_CH4, from 0 on, in us; 0: none. */
-uint32_t model_pulse_us(uint32_t output);
-
 /** The ticks of an instruction at the core's clock now. */
 extern uint32_t model_instruction_ticks;
 
 /** Whether the watchdog was fed in time until now; it is when it does not run. */
 bool model_is_fed(void);
 
+/** When it resets, unless it is fed; UINT64_MAX: never. */
+uint64_t model_bites_at(void);
+
 /** Whether the watchdog runs: behind its start the main loop begins. */
 bool model_is_up(void);
 
 /** What the board said on its console. */
 const char *model_text(void);
+/** @} */
+
+/** @name Outputs: FMU_CH1 to FMU_CH8, from 0 on, with TIM 1, 4 and 12. */
+/** @{ */
+#define MODEL_OUTPUTS 8u
+#define MODEL_ARMED   8u /* The line behind the outputs: nARMED, low while they are armed. */
+#define MODEL_EVENT   9u /* And what is no line: model_event_t. */
+
+/** What a line does. */
+typedef enum model_level {
+    MODEL_FLOATS,
+    MODEL_LOW,
+    MODEL_HIGH,
+    MODEL_UNKNOWN
+} model_level_t;
+
+/** What happens to the chip: the exception that it enters, or a reset, by its cause. */
+#define MODEL_RESET_EVENT 256u
+
+/** A change, in ticks. */
+typedef board_edge_t model_edge_t;
+
+/** Power up: nothing is noted yet. */
+void model_pins_start(void);
+
+/** As a reset leaves them: they float. */
+void model_pins_reset(void);
+
+/** Notes a change of a line. */
+void model_note(uint64_t at, uint32_t line, uint32_t level);
+
+/** All changes since power-up, in the order of their times. */
+const model_edge_t *model_edges(uint32_t *count);
+
+/** Notes what timers did up to now; before anything changes that they depend on. */
+void model_pins_pass(void);
+
+/** Notes what has changed now. */
+void model_pins_look(void);
+
+/** A register of a timer is written. */
+void model_timer_write(uint32_t base, uint32_t offset, uint32_t value);
+
+/** The ticks of the timers' clock from now on. */
+void model_timers_clock(uint32_t ticks);
+
+/** The pulse that leaves an output now, in us; 0: none. */
+uint32_t model_pulse_us(uint32_t output);
 /** @} */
 
 /** @name Buses: SPI 1, 2 and 4, and I2C 3. */
@@ -169,6 +247,21 @@ void model_i2c_write(uint32_t offset, uint32_t value);
 
 /** Pins have changed: what is selected by them, is. */
 void model_select(void);
+
+/** Power up: nothing holds a bus. */
+void model_buses_start(void);
+
+/** What is read by an SPI is low, whoever is selected. */
+void model_spi_hold(uint32_t spi, bool holds);
+
+/** A device holds SDA low, until so many clocks have come, or, with 0, for good. */
+void model_i2c_hold(bool holds, uint32_t clocks);
+
+/** Whether SDA is held low. */
+bool model_i2c_is_held(void);
+
+/** Pins have changed: clocks may come by them. */
+void model_i2c_look(void);
 /** @} */
 
 /** @name Devices at the buses. Each holds what the plant said last. */
@@ -184,8 +277,20 @@ typedef enum model_device {
     MODEL_DEVICES
 } model_device_t;
 
-/** Power up: all are silent. */
+/** Power up: all are silent, and there. */
 void model_devices_start(void);
+
+/** The same, as the supply went: what the memory and the plant hold stays. */
+void model_devices_power(void);
+
+/** An inertial unit, from 0 on, is taken off its bus, or put there again. */
+void model_unit_unplug(uint32_t unit, bool is_off);
+
+/** Whether a device is there. */
+bool model_device_is_there(model_device_t device);
+
+/** The supply goes when so many bytes more were written to the memory of parameters. */
+void model_fram_cut(uint32_t bytes);
 
 /** What the plant says now. */
 sim_sensors_t *model_sensors(void);
@@ -247,6 +352,16 @@ void model_lines_reset(void);
 
 /** How the pilot's receiver sends. */
 void model_pilot_sends(const model_bits_t *bits);
+
+/** What is wrong with a line. */
+typedef struct model_disturbance {
+    bool silent;    /**< Nothing comes. */
+    bool unplugged; /**< The same, and nobody drives the line. */
+    uint32_t noise; /**< Of so many bytes of 1000 something goes wrong. */
+} model_disturbance_t;
+
+/** From now on. */
+void model_line_disturb(model_line_t line, const model_disturbance_t *disturbance);
 
 /** Whether an address is a register of a UART of a line, and of which. */
 bool model_is_uart(uint32_t address, model_line_t *line);

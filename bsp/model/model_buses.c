@@ -2,6 +2,7 @@
 /* SPI 1, 2 and 4 and I2C 3, as polled masters: who looks for the end of a byte waits for it. */
 #include "model.h"
 
+#include "stm32f767/registers/gpio.h"
 #include "stm32f767/registers/i2c.h"
 #include "stm32f767/registers/spi.h"
 
@@ -15,7 +16,11 @@
 #define I2C_BIT     (MODEL_TICKS_PER_US * 5u / 2u) /* 400 kHz. */
 #define I2C_BYTE    (9u * I2C_BIT)
 #define I2C_TXE     1u /* Which the drivers do not look at. */
-#define I2C_CLEARED (I2C_ISR_NACKF | I2C_ISR_STOPF)
+#define I2C_CLEARED (I2C_ISR_NACKF | I2C_ISR_STOPF | I2C_ISR_ARLO)
+#define SCL_PORT    7u
+#define SCL_PIN     7u
+#define PORT_SIZE   0x400u
+#define PULL_UP     1u
 
 /* An SPI. */
 typedef struct model_spi {
@@ -42,13 +47,30 @@ typedef struct model_i2c {
     uint8_t received;
 } model_i2c_t;
 
+/* What holds SDA low. */
+typedef struct model_hold {
+    bool holds;
+    uint32_t clocks; /* Until it lets go; 0: it never does. */
+    bool scl_is_low;
+} model_hold_t;
+
 static model_spi_t spis[SPIS];
+static bool held[SPIS]; /* What they read is low. */
+static model_hold_t hold;
+static uint32_t noise; /* Of an input that nobody drives. */
 static model_seat_t seats[MODEL_DEVICES];
 static model_i2c_t i2c;
 
 static uint32_t spi_word(const model_spi_t *spi, uint32_t offset)
 {
     return *model_word(spi->base + offset);
+}
+
+void model_buses_start(void)
+{
+    memset(held, 0, sizeof held);
+    hold = (model_hold_t){0};
+    noise = 1u;
 }
 
 void model_buses_reset(void)
@@ -102,22 +124,45 @@ static uint64_t byte_ticks(const model_spi_t *spi)
     return (uint64_t)BITS_A_BYTE * CORE_TICKS * spi->divisor * (2u << code);
 }
 
-/* Without a device that is selected all ones are read. */
+/* A byte of a line that nobody drives: as the pin is pulled, or anything. */
+static uint8_t undriven(const model_spi_t *spi)
+{
+    static const uint8_t ports[SPIS] = {0u, 8u, 4u};
+    static const uint8_t pins[SPIS] = {6u, 2u, 13u};
+    const uint32_t number = (uint32_t)(spi - spis);
+    const uint32_t pulls = *model_word(GPIOA_BASE + (PORT_SIZE * ports[number]) +
+                                       offsetof(keel_gpio_t, PUPDR));
+    const uint32_t pull = (pulls >> (2u * pins[number])) & 3u;
+
+    noise = (noise * 1664525u) + 1013904223u;
+    if (pull == 0u) {
+        return (uint8_t)(noise >> 24u);
+    }
+    return (pull == PULL_UP) ? 0xFFu : 0u;
+}
+
 static uint8_t exchanged(const model_spi_t *spi, uint8_t byte)
 {
-    uint8_t answer = 0xFFu;
+    uint8_t answer = undriven(spi);
     uint32_t chosen = 0u;
 
     for (uint32_t i = 0u; i < (uint32_t)MODEL_DEVICES; i++) {
         if ((seats[i].base == spi->base) && seats[i].selected) {
-            answer = model_device_exchange((model_device_t)i, byte);
+            if (model_device_is_there((model_device_t)i)) {
+                answer = model_device_exchange((model_device_t)i, byte);
+            }
             chosen++;
         }
     }
     if (chosen > 1u) {
         model_fail("a byte goes to two devices at SPI 0x%08x", spi->base);
     }
-    return answer;
+    return held[spi - spis] ? 0u : answer;
+}
+
+void model_spi_hold(uint32_t spi, bool holds)
+{
+    held[(spi == 4u) ? 2u : (spi - 1u)] = holds;
 }
 
 uint32_t model_spi_read(uint32_t base, uint32_t offset)
@@ -165,12 +210,45 @@ static void set_flags(uint32_t flags, uint64_t ticks)
     i2c.flags_at = model_now() + ticks;
 }
 
+/* Whoever sends a high bit while SDA is low has lost the bus. */
+static void lose_bus(void)
+{
+    set_flags(I2C_ISR_BUSY | I2C_ISR_ARLO, I2C_BIT);
+}
+
+void model_i2c_hold(bool holds, uint32_t clocks)
+{
+    hold = (model_hold_t){holds, clocks, false};
+    if (holds && (i2c.left > 0u)) {
+        lose_bus();
+    }
+}
+
+bool model_i2c_is_held(void)
+{
+    return hold.holds;
+}
+
+/* Each time that SCL rises is a clock. */
+void model_i2c_look(void)
+{
+    const bool is_low = model_pin_is_low(SCL_PORT, SCL_PIN);
+
+    if (hold.holds && hold.scl_is_low && !is_low && (hold.clocks > 0u)) {
+        hold.clocks--;
+        hold.holds = hold.clocks > 0u;
+    }
+    hold.scl_is_low = is_low;
+}
+
 /* The next byte, or the end. */
 static void go_on(uint64_t ticks)
 {
     const uint32_t control = i2c_word(offsetof(keel_i2c_t, CR2));
 
-    if ((i2c.left == 0u) && ((control & I2C_CR2_AUTOEND) != 0u)) {
+    if (hold.holds) {
+        lose_bus();
+    } else if ((i2c.left == 0u) && ((control & I2C_CR2_AUTOEND) != 0u)) {
         set_flags(I2C_ISR_STOPF, ticks + I2C_BIT);
     } else if (i2c.left == 0u) {
         set_flags(I2C_ISR_BUSY | I2C_ISR_TC, ticks);
@@ -189,6 +267,10 @@ static void begin_transfer(uint32_t control)
 
     i2c.left = keel_bits_get(control, I2C_CR2_NBYTES);
     *model_word(I2C3_BASE + offsetof(keel_i2c_t, CR2)) = control & ~I2C_CR2_START;
+    if (hold.holds) {
+        lose_bus();
+        return;
+    }
     if (address != FIELD_PLACE) {
         set_flags(I2C_ISR_NACKF | I2C_ISR_STOPF, I2C_BYTE + (2u * I2C_BIT));
         return;

@@ -95,6 +95,9 @@ static model_barometer_t barometer;
 static model_memory_chip_t memory;
 static uint8_t fram[MODEL_FRAM_BYTES];
 static bool fram_changed;
+static uint32_t fram_left; /* Bytes until the supply goes; 0: it does not. */
+static bool is_cut;        /* It has gone. */
+static bool is_off[UNITS]; /* Units that are not at their bus. */
 static model_field_t field;
 static model_moved_t moved_unit[UNITS];
 static model_moved_t moved_pressure;
@@ -121,19 +124,42 @@ bool model_fram_has_changed(void)
     return changed;
 }
 
-void model_devices_start(void)
+void model_devices_power(void)
 {
-    memset(&sensors, 0, sizeof sensors);
     memset(parts, 0, sizeof parts);
     memset(&barometer, 0, sizeof barometer);
     memset(&memory, 0, sizeof memory);
+    fram_left = 0u;
+    is_cut = false;
+    memset(&field, 0, sizeof field);
+    field.registers[0] = 0x10u;
+}
+
+void model_devices_start(void)
+{
+    model_devices_power();
+    memset(&sensors, 0, sizeof sensors);
     memset(fram, 0, sizeof fram);
     fram_changed = false;
-    memset(&field, 0, sizeof field);
+    memset(is_off, 0, sizeof is_off);
     memset(moved_unit, 0, sizeof moved_unit);
     moved_pressure = (model_moved_t){0};
     moved_field = (model_moved_t){0};
-    field.registers[0] = 0x10u;
+}
+
+void model_unit_unplug(uint32_t unit, bool off)
+{
+    is_off[unit] = off;
+}
+
+bool model_device_is_there(model_device_t device)
+{
+    return (device == MODEL_ICM20689) ? !is_off[0] : ((device > MODEL_ACCELEROMETER) || !is_off[1]);
+}
+
+void model_fram_cut(uint32_t bytes)
+{
+    fram_left = bytes;
 }
 
 static void follow_count(model_moved_t *moved, uint32_t count)
@@ -449,6 +475,23 @@ static uint8_t exchange_barometer(uint8_t byte)
 
 /* --- FM25V02: it is never busy. --- */
 
+/* The byte after the last one that may be written is not. */
+static void write_memory(uint32_t place, uint8_t byte)
+{
+    if (is_cut) {
+        return;
+    }
+    fram[place] = byte;
+    fram_changed = true;
+    if (fram_left > 0u) {
+        fram_left--;
+        is_cut = fram_left == 0u;
+    }
+    if (is_cut) {
+        model_reset(MODEL_BY_POWER);
+    }
+}
+
 static uint8_t exchange_memory(uint8_t byte)
 {
     static const uint8_t identity[9] = {0x7Fu, 0x7Fu, 0x7Fu, 0x7Fu, 0x7Fu,
@@ -468,8 +511,7 @@ static uint8_t exchange_memory(uint8_t byte)
     }
     place = ((((uint32_t)memory.come[1] << 8u) | memory.come[2]) + (count - 3u)) % MODEL_FRAM_BYTES;
     if ((memory.come[0] == 0x02u) && memory.writable) {
-        fram[place] = byte;
-        fram_changed = true;
+        write_memory(place, byte);
     }
     return (memory.come[0] == 0x03u) ? fram[place] : 0u;
 }

@@ -5,6 +5,7 @@
 #include "model.h"
 
 #include "stm32f767/registers/dma.h"
+#include "stm32f767/registers/gpio.h"
 #include "stm32f767/registers/uart.h"
 
 #include <stddef.h>
@@ -18,6 +19,12 @@
 #define COMPLETE    0x20u
 #define HALF        0x10u
 #define TELEMETRY   57600u
+#define PORT_SIZE   0x400u
+#define MILLE       1000u
+#define GAP_US      150u /* Between two things that an undriven line brings: at least, … */
+#define GAP_MORE_US 700u /* … and at most so much more. */
+#define GOOD_ONE_IN 8u   /* Of these that look like a byte. */
+#define MISHAPS     6u
 #define ERRORS      (UART_ISR_PE | UART_ISR_FE | UART_ISR_NF | UART_ISR_ORE)
 
 /* A line as the board wires it. */
@@ -60,6 +67,9 @@ static const uint8_t flag_places[4] = {0u, 6u, 16u, 22u};
 static model_uart_t uarts[MODEL_LINES];
 static model_bits_t senders[MODEL_LINES];
 static uint32_t taken[SIM_RECEIVERS];
+static model_disturbance_t disturbances[MODEL_LINES];
+static uint64_t brings_at_us[MODEL_LINES]; /* When an undriven line brings something. */
+static uint32_t chance;
 static model_queue_t up;
 static model_queue_t down;
 
@@ -81,6 +91,8 @@ void model_lines_start(void)
     memset(taken, 0, sizeof taken);
     memset(&up, 0, sizeof up);
     memset(&down, 0, sizeof down);
+    memset(disturbances, 0, sizeof disturbances);
+    chance = 1u;
     senders[MODEL_PILOT] = (model_bits_t){100000u, true, true, true};
     senders[MODEL_SATELLITES] = (model_bits_t){115200u, false, false, false};
     senders[MODEL_TELEMETRY] = (model_bits_t){TELEMETRY, false, false, false};
@@ -92,6 +104,12 @@ void model_lines_reset(void)
     for (uint32_t i = 0u; i < (uint32_t)MODEL_LINES; i++) {
         *stream_word((model_line_t)i, offsetof(keel_dma_stream_t, FCR)) = 0x21u;
     }
+}
+
+void model_line_disturb(model_line_t line, const model_disturbance_t *disturbance)
+{
+    disturbances[line] = *disturbance;
+    brings_at_us[line] = model_now_us();
 }
 
 void model_pilot_sends(const model_bits_t *bits)
@@ -152,16 +170,30 @@ static void move_byte(model_line_t line)
     *left = (*left == 1u) ? uart->size : (*left - 1u);
 }
 
-/* After an overrun nothing is received until its flag is cleared. */
-static void receive_byte(model_line_t line, uint8_t byte)
+/* Whether it hears at all: after an overrun not until its flag is cleared. */
+static bool hears(model_line_t line)
 {
     const model_wiring_t *const wiring = &wirings[line];
-    model_uart_t *const uart = &uarts[line];
     const uint32_t on = UART_CR1_UE | UART_CR1_RE;
 
-    if (((*uart_word(line, offsetof(keel_uart_t, CR1)) & on) != on) ||
-        ((uart->status & UART_ISR_ORE) != 0u) ||
-        !model_pin_has(wiring->port, wiring->pin, wiring->function)) {
+    return ((*uart_word(line, offsetof(keel_uart_t, CR1)) & on) == on) &&
+           ((uarts[line].status & UART_ISR_ORE) == 0u) &&
+           model_pin_has(wiring->port, wiring->pin, wiring->function);
+}
+
+/* A byte with an error is flagged, and not moved (RM0410, 34.8.3, DDRE). */
+static void receive_error(model_line_t line, uint32_t flag)
+{
+    if (hears(line)) {
+        uarts[line].status |= flag;
+    }
+}
+
+static void receive_byte(model_line_t line, uint8_t byte)
+{
+    model_uart_t *const uart = &uarts[line];
+
+    if (!hears(line)) {
         return;
     }
     if (!fits(line)) {
@@ -177,6 +209,84 @@ static void receive_byte(model_line_t line, uint8_t byte)
     move_byte(line);
 }
 
+/* --- What disturbs a line. --- */
+
+/* Below a limit, by a generator of its own (Numerical Recipes' constants). */
+static uint32_t drawn(uint32_t limit)
+{
+    chance = (chance * 1664525u) + 1013904223u;
+    return (chance >> 8u) % limit;
+}
+
+static bool has_parity(model_line_t line)
+{
+    return (*uart_word(line, offsetof(keel_uart_t, CR1)) & UART_CR1_PCE) != 0u;
+}
+
+/* Parity finds one bit that has changed, but not two. */
+static void receive_disturbed(model_line_t line, uint8_t byte)
+{
+    const uint8_t bit = (uint8_t)(1u << drawn(8u));
+
+    switch (drawn(MISHAPS)) {
+    case 0u: /* Its start bit is not seen. */
+        break;
+    case 1u:
+        receive_error(line, UART_ISR_FE);
+        break;
+    case 2u:
+        receive_error(line, UART_ISR_NF);
+        break;
+    case 3u:
+        if (has_parity(line)) {
+            receive_error(line, UART_ISR_PE);
+        } else {
+            receive_byte(line, byte ^ bit);
+        }
+        break;
+    case 4u:
+        receive_byte(line, (uint8_t)(byte ^ bit ^ ((bit == 0x80u) ? 1u : (uint8_t)(bit << 1u))));
+        break;
+    default: /* Something comes before it. */
+        receive_byte(line, (uint8_t)drawn(256u));
+        receive_byte(line, byte);
+        break;
+    }
+}
+
+static void receive_sent(model_line_t line, uint8_t byte)
+{
+    if (drawn(MILLE) < disturbances[line].noise) {
+        receive_disturbed(line, byte);
+    } else {
+        receive_byte(line, byte);
+    }
+}
+
+/* A pin with a pull rests; without one it takes what the wires beside it do for bits, few of which
+ * make a byte. */
+static void hear_nobody(model_line_t line)
+{
+    const model_wiring_t *const wiring = &wirings[line];
+    const uint32_t pulls = *model_word(GPIOA_BASE + (PORT_SIZE * wiring->port) +
+                                       offsetof(keel_gpio_t, PUPDR));
+
+    while (brings_at_us[line] <= model_now_us()) {
+        brings_at_us[line] += GAP_US + drawn(GAP_MORE_US);
+        if (((pulls >> (2u * wiring->pin)) & 3u) != 0u) {
+            /* It rests. */
+        } else if (drawn(GOOD_ONE_IN) == 0u) {
+            if (hears(line) && ((uarts[line].status & UART_ISR_RXNE) == 0u)) {
+                uarts[line].received = (uint8_t)drawn(256u);
+                uarts[line].status |= UART_ISR_RXNE;
+                move_byte(line);
+            }
+        } else {
+            receive_error(line, UART_ISR_FE | UART_ISR_NF);
+        }
+    }
+}
+
 /* The bytes of one of the plant's receivers that have come by now. */
 static void hear_receiver(model_line_t line, uint32_t number)
 {
@@ -188,8 +298,13 @@ static void hear_receiver(model_line_t line, uint32_t number)
     }
     while ((taken[number] != from->count) &&
            ((now_us - from->at_us[taken[number] % SIM_RING]) < 0x80000000u)) {
-        receive_byte(line, (uint8_t)from->byte[taken[number] % SIM_RING]);
+        if (!disturbances[line].silent && !disturbances[line].unplugged) {
+            receive_sent(line, (uint8_t)from->byte[taken[number] % SIM_RING]);
+        }
         taken[number]++;
+    }
+    if (disturbances[line].unplugged) {
+        hear_nobody(line);
     }
 }
 

@@ -2,9 +2,11 @@
 /* The processor, with its memories: Unicorn executes the image's instructions. */
 #include "model.h"
 
+#include "cortex_m7/core.h"
 #include "stm32f767/registers/factory.h"
 #include "stm32f767/registers/memory.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 #include <unicorn/unicorn.h>
@@ -25,6 +27,13 @@
 #define IT_BITS   0x0600FC00u
 #define WIDE_FROM 0x1Du /* The upper five bits of an instruction of two halfwords. */
 #define CACHED    0x10000u
+
+#define STACKED     32u /* Bytes that an exception stacks. */
+#define THUMB       (1u << 24u)
+#define TO_THREAD   0xFFFFFFF9u /* EXC_RETURN: to the main stack, without the FPU's registers. */
+#define USAGE_FAULT 6u
+#define UNDEFINED   0x10000u /* UNDEFINSTR, of CFSR. */
+#define NO_TASK     UINT32_MAX
 
 /* What the chip's maker measured: the reference at 3.3 V, the temperature at 30 and 110 degrees. */
 static const uint16_t calibration[3] = {1502u, 943u, 1186u};
@@ -82,6 +91,13 @@ static uint32_t pc;
 static bool is_guarded;
 static bool has_stopped; /* A block was not executed. */
 static bool reset_wanted;
+static model_cause_t cause;
+static bool expects_faults;
+static bool hangs;          /* No instruction is executed, … */
+static uint32_t hangs_with; /* … or none from the end of this task's next run on. */
+static uint32_t pending;    /* An exception; 0: none. */
+static uint32_t pending_status;
+static uint32_t active; /* Likewise. */
 static uint32_t watched;
 static model_delay_t delays[TASKS];
 static model_block_t blocks[CACHED];
@@ -150,6 +166,7 @@ static void pass_delay(void)
     uint32_t task = 0u;
 
     (void)uc_reg_read(engine, UC_ARM_REG_R1, &task);
+    hangs = hangs || (task == hangs_with);
     if ((task < TASKS) && (delays[task].runs > 0u)) {
         delays[task].runs--;
         model_pass((uint64_t)delays[task].extra_us * MODEL_TICKS_PER_US);
@@ -162,7 +179,8 @@ static void meet_block(uc_engine *uc, uint64_t address, uint32_t size, void *con
     if (has_stopped) {
         return;
     }
-    if ((model_time_is_up() || reset_wanted || model_clock.failed) && may_stop()) {
+    if ((model_time_is_up() || reset_wanted || (pending != 0u) || hangs || model_clock.failed) &&
+        may_stop()) {
         has_stopped = true;
         (void)uc_emu_stop(uc);
         return;
@@ -323,16 +341,23 @@ static bool load_image(const char *path, uint32_t address)
     return count > 0u;
 }
 
-/* What a reset does: to memories without power, to registers, and to the processor. */
+/* What a reset does: to memories without power, to registers, and to the processor. The backup
+ * memory has no battery: without supply it is anything. */
 static void begin(void)
 {
     const uint32_t sp = word_at(vectors);
     const uint32_t nobody = UINT32_MAX;
 
     model_guard(false);
-    model_registers_reset();
+    if (cause == MODEL_BY_POWER) {
+        model_devices_power();
+    }
+    model_registers_reset(cause);
+    model_note(model_now(), MODEL_EVENT, MODEL_RESET_EVENT + (uint32_t)cause);
     for (uint32_t i = 0u; i < AREAS; i++) {
-        if (!areas[i].keeps) {
+        const bool is_off = (cause == MODEL_BY_POWER) && (areas[i].bytes == backup);
+
+        if (!areas[i].keeps || is_off) {
             memset(areas[i].bytes, areas[i].fill, areas[i].size);
         }
     }
@@ -341,6 +366,10 @@ static void begin(void)
     (void)uc_reg_write(engine, UC_ARM_REG_LR, &nobody);
     pc = word_at(vectors + 4u) & ~1u;
     reset_wanted = false;
+    hangs = false;
+    hangs_with = NO_TASK;
+    pending = 0u;
+    active = 0u;
 }
 
 bool model_processor_start(const char *path, uint32_t address)
@@ -351,6 +380,8 @@ bool model_processor_start(const char *path, uint32_t address)
     }
     vectors = address;
     is_guarded = false;
+    expects_faults = false;
+    cause = MODEL_BY_POWER;
     memset(delays, 0, sizeof delays);
     memset(blocks, 0, sizeof blocks);
     if ((uc_open(UC_ARCH_ARM, UC_MODE_THUMB, &engine) != UC_ERR_OK) ||
@@ -376,9 +407,36 @@ void model_guard(bool on)
     }
 }
 
-void model_reset(void)
+void model_reset(model_cause_t by)
 {
     reset_wanted = true;
+    cause = by;
+}
+
+void model_expect_faults(void)
+{
+    expects_faults = true;
+}
+
+void model_except(uint32_t number, uint32_t status)
+{
+    pending = number;
+    pending_status = status;
+}
+
+uint32_t model_exception(void)
+{
+    return active;
+}
+
+void model_hang(void)
+{
+    hangs = true;
+}
+
+void model_hang_task(uint32_t task)
+{
+    hangs_with = task;
 }
 
 void model_watch(uint32_t address)
@@ -402,21 +460,101 @@ static void run_on(void)
     error = uc_emu_start(engine, pc | 1u, 0u, 0u, 0u);
     (void)uc_reg_read(engine, UC_ARM_REG_PC, &pc);
     pc &= ~1u;
-    if ((error != UC_ERR_OK) && !model_clock.failed) {
+    if (error == UC_ERR_OK) {
+        return;
+    }
+    if (expects_faults && (error == UC_ERR_INSN_INVALID)) {
+        model_except(USAGE_FAULT, UNDEFINED);
+    } else if (!model_clock.failed) {
         uint32_t r0 = 0u;
 
         (void)uc_reg_read(engine, UC_ARM_REG_R0, &r0);
         model_fail("the processor stopped at 0x%08x with r0 0x%08x: %s", pc, r0,
                    uc_strerror(error));
+    } else {
+        /* It was told why. */
+    }
+}
+
+/* The registers that the core stacks, from the lowest address on. */
+static void stack_registers(void)
+{
+    static const int names[] = {UC_ARM_REG_R0,  UC_ARM_REG_R1, UC_ARM_REG_R2, UC_ARM_REG_R3,
+                                UC_ARM_REG_R12, UC_ARM_REG_LR, UC_ARM_REG_PC, UC_ARM_REG_CPSR};
+    uint32_t values[8];
+    uint32_t sp = 0u;
+    uint8_t *place;
+
+    for (uint32_t i = 0u; i < 8u; i++) {
+        (void)uc_reg_read(engine, names[i], &values[i]);
+    }
+    values[7] |= THUMB;
+    (void)uc_reg_read(engine, UC_ARM_REG_SP, &sp);
+    sp = (sp - STACKED) & ~7u;
+    place = model_memory(sp, STACKED);
+    if (place != NULL) {
+        memcpy(place, values, STACKED);
+    }
+    (void)uc_reg_write(engine, UC_ARM_REG_SP, &sp);
+}
+
+/* The handler of the exception that is pending begins. */
+static void enter_exception(void)
+{
+    const uint32_t back = TO_THREAD;
+
+    if (active != 0u) {
+        model_fail("exception %u in the handler of %u: lock-up", pending, active);
+        return;
+    }
+    stack_registers();
+    (void)uc_reg_write(engine, UC_ARM_REG_LR, &back);
+    *model_word(SCB_BASE + offsetof(keel_scb_t, CFSR)) |= pending_status;
+    active = pending;
+    pending = 0u;
+    pc = word_at(*model_word(SCB_BASE + offsetof(keel_scb_t, VTOR)) + (4u * active)) & ~1u;
+    model_note(model_now(), MODEL_EVENT, active);
+}
+
+/* The watchdog's time is up. */
+static void bite(void)
+{
+    if (expects_faults) {
+        model_reset(MODEL_BY_WATCHDOG);
+    } else {
+        model_fail("the watchdog was not fed");
+    }
+}
+
+/* Up to a time, or to the watchdog's, whichever is the first. */
+static void run_piece(uint64_t until)
+{
+    const uint64_t bites_at = model_bites_at();
+
+    model_clock_limit((bites_at < until) ? bites_at : until);
+    if (hangs) {
+        (void)model_wait(UINT64_MAX);
+    } else {
+        run_on();
+    }
+    if (model_now() >= model_bites_at()) {
+        bite();
     }
 }
 
 void model_processor_run(void)
 {
-    while (!model_time_is_up() && !model_clock.failed) {
-        run_on();
+    const uint64_t until = model_clock.limit;
+
+    while ((model_now() < until) && !model_clock.failed) {
+        run_piece(until);
         if (reset_wanted) {
             begin();
+        } else if (pending != 0u) {
+            enter_exception();
+        } else {
+            /* It goes on. */
         }
     }
+    model_clock_limit(until);
 }

@@ -38,6 +38,15 @@
 #define SLOW_TICKS 27u /* … and at 16 MHz. */
 #define OF_PLL     2u  /* The core's clock. */
 
+#define NMI            2u            /* The exception. */
+#define CSS_FAILED     BITS(7u, 1u)  /* Of CIR: the clock security system. */
+#define ICSR_RETTOBASE BITS(11u, 1u) /* No other exception is active. */
+/* Of CSR: flags, a reset by software, and that the pin went low, as it does by every reset. */
+#define CSR_FLAGS   0xFE000000u
+#define CSR_SFTRSTF BITS(28u, 1u)
+#define CSR_PINRSTF BITS(26u, 1u)
+#define I2C_SDA     8u /* Of port H. */
+
 #define POLLS      3u   /* So many readings of the clock in a row are a wait for a time. */
 #define POLL_TICKS 200u /* One behind the other. */
 
@@ -46,11 +55,9 @@
 #define KEY_START 0xCCCCu
 #define LSI_KHZ   32u
 
-#define BYTE_TICKS  (MODEL_TICKS_PER_US * 87u) /* Of the console, at 115200 baud. */
-#define ANSWER_US   160u                       /* A command's to a card that is not there. */
-#define CONVERT     12u                        /* Cycles beside those to sample. */
-#define COUNTER_AF  1u                         /* The function of TIM 1's pins. */
-#define TIM_OUTPUTS 4u
+#define BYTE_TICKS (MODEL_TICKS_PER_US * 87u) /* Of the console, at 115200 baud. */
+#define ANSWER_US  160u                       /* A command's to a card that is not there. */
+#define CONVERT    12u                        /* Cycles beside those to sample. */
 
 typedef uint32_t (*model_reader_t)(uint32_t offset);
 typedef void (*model_writer_t)(uint32_t offset, uint32_t value);
@@ -73,7 +80,6 @@ static const model_default_t defaults[] = {
     {RCC_BASE, 0x83u},
     {RCC_BASE + offsetof(keel_rcc_t, PLLCFGR), 0x24003010u},
     {RCC_BASE + offsetof(keel_rcc_t, AHB1ENR), 0x00100000u},
-    {RCC_BASE + offsetof(keel_rcc_t, CSR), 0x0E000000u},
     {PWR_BASE, 0xC000u},
     {UART7_BASE + offsetof(keel_uart_t, ISR), 0xC0u},
     {SPI1_BASE + offsetof(keel_spi_t, CR2), 0x700u},
@@ -104,10 +110,9 @@ static char text[MODEL_TEXT + 1u];
 static uint32_t said;
 static bool converts;
 static uint64_t converted_at;
+static bool oscillator_lost;
 static bool commands; /* A command to a card waits for its answer, … */
 static uint64_t answered_at;
-static uint32_t pulse[TIM_OUTPUTS]; /* What TIM 1 works with. */
-static uint64_t period_from;
 
 /* --- Clocks and supplies: all become ready at once. --- */
 
@@ -116,18 +121,57 @@ static uint32_t followed(uint32_t word, uint32_t control, uint32_t flag)
     return ((word & control) != 0u) ? (word | flag) : (word & ~flag);
 }
 
+static uint32_t *rcc_word(uint32_t offset)
+{
+    return model_word(RCC_BASE + offset);
+}
+
+/* Without the oscillator neither it nor the PLL behind it becomes ready. */
+static uint32_t ready_clocks(uint32_t control)
+{
+    const bool from_hse = (*rcc_word(offsetof(keel_rcc_t, PLLCFGR)) & RCC_PLLCFGR_PLLSRC) != 0u;
+    uint32_t word = followed(control, RCC_CR_HSION, RCC_CR_HSIRDY);
+
+    word = followed(word, oscillator_lost ? 0u : RCC_CR_HSEON, RCC_CR_HSERDY);
+    return followed(word, (oscillator_lost && from_hse) ? 0u : RCC_CR_PLLON, RCC_CR_PLLRDY);
+}
+
+static void run_core_of(uint32_t source)
+{
+    keel_bits_put(rcc_word(offsetof(keel_rcc_t, CFGR)), RCC_CFGR_SW | RCC_CFGR_SWS,
+                  FIELD(RCC_CFGR_SW, source) | FIELD(RCC_CFGR_SWS, source));
+    model_instruction_ticks = (source == OF_PLL) ? FAST_TICKS : SLOW_TICKS;
+    model_timers_clock(model_instruction_ticks);
+}
+
+/* The clock security system goes over to the internal oscillator, and says so by the NMI (RM0410,
+ * 5.2.7). Without it nothing clocks the core any more. */
+void model_lose_oscillator(void)
+{
+    uint32_t *const control = rcc_word(offsetof(keel_rcc_t, CR));
+    const bool is_watched = (*control & RCC_CR_CSSON) != 0u;
+
+    oscillator_lost = true;
+    if (!is_watched) {
+        model_hang();
+        return;
+    }
+    *control &= ~(RCC_CR_HSEON | RCC_CR_HSERDY | RCC_CR_PLLON | RCC_CR_PLLRDY);
+    run_core_of(0u);
+    *rcc_word(offsetof(keel_rcc_t, CIR)) |= CSS_FAILED;
+    model_except(NMI, 0u);
+}
+
 static void write_rcc(uint32_t offset, uint32_t value)
 {
     uint32_t word = value;
 
     if (offset == offsetof(keel_rcc_t, CR)) {
-        word = followed(word, RCC_CR_HSION, RCC_CR_HSIRDY);
-        word = followed(word, RCC_CR_HSEON, RCC_CR_HSERDY);
-        word = followed(word, RCC_CR_PLLON, RCC_CR_PLLRDY);
+        word = ready_clocks(value);
     } else if (offset == offsetof(keel_rcc_t, CFGR)) {
-        keel_bits_put(&word, RCC_CFGR_SWS, FIELD(RCC_CFGR_SWS, keel_bits_get(value, RCC_CFGR_SW)));
-        model_instruction_ticks = (keel_bits_get(value, RCC_CFGR_SW) == OF_PLL) ? FAST_TICKS
-                                                                                : SLOW_TICKS;
+        *rcc_word(offset) = value;
+        run_core_of(keel_bits_get(value, RCC_CFGR_SW));
+        return;
     } else if (offset == offsetof(keel_rcc_t, CSR)) {
         word = ((value & RCC_CSR_RMVF) != 0u) ? 0u : value;
     } else {
@@ -186,7 +230,10 @@ static void write_systick(uint32_t offset, uint32_t value)
 static uint32_t read_system(uint32_t offset)
 {
     if (offset == offsetof(keel_scb_t, ICSR)) {
-        return (sleeps && model_wait(sleeps_until)) ? SCB_ICSR_PENDSTSET : 0u;
+        const uint32_t active = model_exception();
+
+        return ((sleeps && model_wait(sleeps_until)) ? SCB_ICSR_PENDSTSET : 0u) | active |
+               ((active != 0u) ? ICSR_RETTOBASE : 0u);
     }
     return *model_word(SYSTEM + offset);
 }
@@ -196,12 +243,22 @@ static void write_system(uint32_t offset, uint32_t value)
     *model_word(SYSTEM + offset) = value;
     if ((offset == offsetof(keel_scb_t, AIRCR)) && ((value >> 16u) == SCB_AIRCR_KEY) &&
         ((value & SCB_AIRCR_SYSRESETREQ) != 0u)) {
-        model_reset();
+        model_reset(MODEL_BY_SOFTWARE);
     } else if (offset == ((MPU_BASE - SYSTEM) + offsetof(keel_mpu_t, CTRL))) {
         model_guard((value & MPU_CTRL_ENABLE) != 0u);
     } else {
         /* It is kept. */
     }
+}
+
+/* The count is that of RLR from the next start or feeding on (RM0410, 30.3). */
+static void take_reload(void)
+{
+    const uint64_t divisor = 4u << *model_word(IWDG_BASE + offsetof(keel_iwdg_t, PR));
+    const uint64_t count = *model_word(IWDG_BASE + offsetof(keel_iwdg_t, RLR)) + 1u;
+
+    starves_after = (count * divisor * 1000u * MODEL_TICKS_PER_US) / LSI_KHZ;
+    fed_at = model_now();
 }
 
 static void write_watchdog(uint32_t offset, uint32_t value)
@@ -213,18 +270,19 @@ static void write_watchdog(uint32_t offset, uint32_t value)
     if (!model_is_fed()) {
         model_fail("the watchdog was fed too late");
     }
-    if (value == KEY_START) {
-        const uint64_t divisor = 4u << *model_word(IWDG_BASE + offsetof(keel_iwdg_t, PR));
-        const uint64_t count = *model_word(IWDG_BASE + offsetof(keel_iwdg_t, RLR)) + 1u;
-
-        starves_after = (count * divisor * 1000u * MODEL_TICKS_PER_US) / LSI_KHZ;
+    if ((value == KEY_START) || ((value == KEY_FEED) && (starves_after != 0u))) {
+        take_reload();
     }
-    fed_at = model_now();
 }
 
 bool model_is_fed(void)
 {
     return (starves_after == 0u) || ((model_now() - fed_at) <= starves_after);
+}
+
+uint64_t model_bites_at(void)
+{
+    return (starves_after == 0u) ? UINT64_MAX : (fed_at + starves_after + 1u);
 }
 
 bool model_is_up(void)
@@ -270,13 +328,14 @@ static uint32_t read_port(uint32_t port, uint32_t offset)
     for (uint32_t pin = 7u; (port == 7u) && (pin <= 8u); pin++) {
         levels |= (model_pin_is_low(port, pin) ? 0u : 1u) << pin;
     }
-    return levels;
+    return model_i2c_is_held() ? (levels & ~(1u << I2C_SDA)) : levels;
 }
 
 static void write_port(uint32_t port, uint32_t offset, uint32_t value)
 {
     const uint32_t base = GPIOA_BASE + (PORT_SIZE * port);
 
+    model_pins_pass();
     if (offset == offsetof(keel_gpio_t, BSRR)) {
         uint32_t *const output = model_word(base + offsetof(keel_gpio_t, ODR));
 
@@ -285,59 +344,8 @@ static void write_port(uint32_t port, uint32_t offset, uint32_t value)
         *model_word(base + offset) = value;
     }
     model_select();
-}
-
-/* --- Pulses. A channel takes its pulse over at a new period. --- */
-
-static uint32_t timer_word(uint32_t offset)
-{
-    return *model_word(TIM1_BASE + offset);
-}
-
-static void take_pulses(void)
-{
-    for (uint32_t i = 0u; i < TIM_OUTPUTS; i++) {
-        pulse[i] = timer_word(offsetof(keel_tim_t, CCR1) + (i * sizeof(uint32_t)));
-    }
-}
-
-static void pass_periods(void)
-{
-    const uint64_t period = ((uint64_t)timer_word(offsetof(keel_tim_t, ARR)) + 1u) *
-                            (timer_word(offsetof(keel_tim_t, PSC)) + 1u) * FAST_TICKS;
-    const uint64_t periods = (model_now() - period_from) / period;
-
-    if (((timer_word(offsetof(keel_tim_t, CR1)) & TIM_CR1_CEN) != 0u) && (periods > 0u)) {
-        period_from += periods * period;
-        take_pulses();
-    }
-}
-
-static void write_timer(uint32_t offset, uint32_t value)
-{
-    pass_periods();
-    *model_word(TIM1_BASE + offset) = value;
-    if ((offset == offsetof(keel_tim_t, EGR)) && ((value & TIM_EGR_UG) != 0u)) {
-        take_pulses();
-        period_from = model_now();
-    }
-}
-
-uint32_t model_pulse_us(uint32_t output)
-{
-    static const uint8_t ports[TIM_OUTPUTS] = {4u, 0u, 4u, 4u};
-    static const uint8_t pins[TIM_OUTPUTS] = {14u, 10u, 11u, 9u};
-    const uint32_t channel = (TIM_OUTPUTS - 1u) - output;
-    const bool is_on = ((timer_word(offsetof(keel_tim_t, CCER)) >> (4u * channel)) & 1u) != 0u;
-    const bool is_open = (timer_word(offsetof(keel_tim_t, BDTR)) & TIM_BDTR_MOE) != 0u;
-    const bool counts = (timer_word(offsetof(keel_tim_t, CR1)) & TIM_CR1_CEN) != 0u;
-    const uint64_t tick = ((uint64_t)timer_word(offsetof(keel_tim_t, PSC)) + 1u) * FAST_TICKS;
-
-    pass_periods();
-    if (!is_on || !is_open || !counts || !model_pin_has(ports[output], pins[output], COUNTER_AF)) {
-        return 0u;
-    }
-    return (uint32_t)((pulse[channel] * tick) / MODEL_TICKS_PER_US);
+    model_pins_look();
+    model_i2c_look();
 }
 
 /* --- The converter. --- */
@@ -487,6 +495,15 @@ static void write_converters(uint32_t offset, uint32_t value)
         model_dma_write(number##u, offset, value);                                                 \
     }
 
+#define TIMER_FUNCTION(number)                                                                     \
+    static void write_tim##number(uint32_t offset, uint32_t value)                                 \
+    {                                                                                              \
+        model_timer_write(TIM##number##_BASE, offset, value);                                      \
+    }
+
+TIMER_FUNCTION(1)
+TIMER_FUNCTION(4)
+TIMER_FUNCTION(12)
 SPI_FUNCTIONS(1)
 SPI_FUNCTIONS(2)
 SPI_FUNCTIONS(4)
@@ -503,15 +520,15 @@ static const model_registers_t peripherals[] = {
     {I2C3_BASE, sizeof(keel_i2c_t), model_i2c_read, model_i2c_write},
     {DMA1_BASE, sizeof(keel_dma_t), read_dma1, write_dma1},
     {DMA2_BASE, sizeof(keel_dma_t), read_dma2, write_dma2},
-    {TIM1_BASE, 0x68u, NULL, write_timer},
+    {TIM1_BASE, 0x68u, NULL, write_tim1},
     {ADC1_BASE, 0x30Cu, read_converters, write_converters},
     {IWDG_BASE, sizeof(keel_iwdg_t), NULL, write_watchdog},
     {UART7_BASE, sizeof(keel_uart_t), read_console, write_console},
     {RCC_BASE, sizeof(keel_rcc_t), NULL, write_rcc},
     {PWR_BASE, sizeof(keel_pwr_t), NULL, write_pwr},
     {SDMMC1_BASE, sizeof(keel_sdmmc_t), read_slot, write_slot},
-    {TIM4_BASE, 0x54u, NULL, NULL},
-    {TIM12_BASE, 0x54u, NULL, NULL},
+    {TIM4_BASE, 0x54u, NULL, write_tim4},
+    {TIM12_BASE, 0x54u, NULL, write_tim12},
     {TIM8_BASE, 0x68u, NULL, NULL},
     {TIM9_BASE, 0x54u, NULL, NULL},
     {FLASH_BASE, sizeof(keel_flash_t), NULL, NULL},
@@ -627,27 +644,43 @@ void model_write(uint32_t address, uint32_t size, uint32_t value)
     }
 }
 
-void model_registers_reset(void)
+/* What the reset's cause adds to the flags, which stay until they are cleared (RM0410, 5.3.21). */
+static uint32_t reset_flags(model_cause_t cause)
 {
+    static const uint32_t flags[] = {[MODEL_BY_POWER] = RCC_CSR_RESET,
+                                     [MODEL_BY_SOFTWARE] = CSR_SFTRSTF | CSR_PINRSTF,
+                                     [MODEL_BY_WATCHDOG] = RCC_CSR_IWDGRSTF | CSR_PINRSTF};
+    const uint32_t before = *rcc_word(offsetof(keel_rcc_t, CSR)) & CSR_FLAGS;
+
+    return flags[cause] | ((cause == MODEL_BY_POWER) ? 0u : before);
+}
+
+void model_registers_start(void)
+{
+    oscillator_lost = false;
+    said = 0u;
+}
+
+void model_registers_reset(model_cause_t cause)
+{
+    const uint32_t flags = reset_flags(cause);
+
     memset(model_chip, 0, sizeof model_chip);
     memset(model_core, 0, sizeof model_core);
     model_instruction_ticks = SLOW_TICKS;
-    memset(pulse, 0, sizeof pulse);
     for (uint32_t i = 0u; i < (sizeof defaults / sizeof defaults[0]); i++) {
         *model_word(defaults[i].address) = defaults[i].value;
     }
+    *rcc_word(offsetof(keel_rcc_t, CSR)) = flags;
     make_pages();
     counted_from = model_now();
-    period_from = model_now();
     starves_after = 0u;
     said_until = model_now();
     looks = 0u;
     sleeps = false;
     converts = false;
     commands = false;
-    if (model_now() == 0u) {
-        said = 0u;
-    }
     model_buses_reset();
     model_lines_reset();
+    model_pins_reset();
 }

@@ -57,6 +57,10 @@ void keel_board_early(void)
 {
 }
 
+void keel_board_open_record(void)
+{
+}
+
 void keel_board_start(void)
 {
     UART->BAUDDIV = UART_BAUDDIV;

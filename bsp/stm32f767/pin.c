@@ -16,9 +16,14 @@ static void put_two_bits(volatile uint32_t *target, uint32_t number, uint32_t va
     keel_bits_put(target, BITS(2u * number, 2u), value << (2u * number));
 }
 
+static uint32_t level_of(keel_pin_t pin, bool high)
+{
+    return 1u << (pin.number + (high ? 0u : RESET_HALF));
+}
+
 void keel_pin_write(keel_pin_t pin, bool high)
 {
-    pin.port->BSRR = 1u << (pin.number + (high ? 0u : RESET_HALF));
+    pin.port->BSRR = level_of(pin, high);
 }
 
 bool keel_pin_read(keel_pin_t pin)
@@ -26,9 +31,10 @@ bool keel_pin_read(keel_pin_t pin)
     return ((pin.port->IDR >> pin.number) & 1u) != 0u;
 }
 
+/* Not by keel_pin_write, which lies in ITCM: the first outputs are low before that is filled. */
 void keel_pin_output(keel_pin_t pin, keel_drive_t drive, bool high)
 {
-    keel_pin_write(pin, high);
+    pin.port->BSRR = level_of(pin, high);
     keel_bits_put(&pin.port->OTYPER, BITS(pin.number, 1u), (uint32_t)drive << pin.number);
     put_two_bits(&pin.port->PUPDR, pin.number, (uint32_t)KEEL_PULL_NONE);
     put_two_bits(&pin.port->MODER, pin.number, MODE_OUTPUT);

@@ -85,7 +85,7 @@ static keel_supervisor_t supervisor;
 static const keel_scheduler_t *supervised;
 static uint32_t last_fed_us;
 
-/* Before memory is filled, but for ITCM: nothing static but constants may be used. */
+/* Before memory is filled: nothing static but constants may be used. */
 
 /* Whatever else is on the board sees by this pin whether motors may turn. */
 static void tell_armed(bool armed)
@@ -100,7 +100,7 @@ static void tell_armed(bool armed)
     }
 }
 
-/* Outputs low, and the memory for a record of a fault open, before anything else can go wrong. */
+/* Outputs low, before anything takes time: at 16 MHz ITCM alone takes more than a millisecond. */
 void keel_board_early(void)
 {
     keel_bits_enable(&RCC->AHB1ENR, GPIO_CLOCKS);
@@ -108,6 +108,10 @@ void keel_board_early(void)
     for (uint32_t i = 0u; i < PINS->output_count; i++) {
         keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);
     }
+}
+
+void keel_board_open_record(void)
+{
     (void)keel_backup_open(RCC, PWR, &patience);
 }
 

@@ -57,6 +57,12 @@ def text_of(entry: Any, name: str) -> str:
     return entry.attributes[name].value.decode() if name in entry.attributes else ""
 
 
+def declaration_of(entry: Any) -> Any:
+    """What has the name and the type of a variable: a header, if that declares it."""
+    is_apart = "DW_AT_specification" in entry.attributes
+    return entry.get_DIE_from_attribute("DW_AT_specification") if is_apart else entry
+
+
 def type_of(entry: Any) -> Any:
     """An entry's type, below all names for it."""
     kind = entry.get_DIE_from_attribute("DW_AT_type")
@@ -93,9 +99,10 @@ class Variables:
         """A variable of a file."""
         unit = self._units.get(source)
         for entry in unit.get_top_DIE().iter_children() if unit else ():
-            if entry.tag == "DW_TAG_variable" and text_of(entry, "DW_AT_name") == name:
+            declared = declaration_of(entry)
+            if entry.tag == "DW_TAG_variable" and text_of(declared, "DW_AT_name") == name:
                 place = entry.attributes.get("DW_AT_location")
                 if place is not None and place.value[0] == 3:  # DW_OP_addr.
                     address = int.from_bytes(bytes(place.value[1:5]), "little")
-                    return place_of(address, type_of(entry))
+                    return place_of(address, type_of(declared))
         raise ToolError(f"the image has no variable {name} of {source}")

@@ -12,6 +12,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, unknown
 from keel.base.files import write_json
@@ -117,6 +119,7 @@ class BoardCopter(Copter):
     """The library with a board's image."""
 
     headers = (SIM, HEADER)
+    has_board = True
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
@@ -192,6 +195,20 @@ class BoardCopter(Copter):
     def hear(self, radio: str) -> None:
         """How the pilot's receiver sends."""
         self._library.board_pilot_sends(*BITS[radio])
+
+    def breaks(self, fault: str, which: int, amount: int, on: bool) -> None:
+        """Break something of the board, or mend it."""
+        kind = getattr(self._library, f"BOARD_{fault.upper()}")
+        if self._library.board_break(kind, which, amount, int(on)):
+            raise ToolError(f"fault {fault}: the board has no number {which} of it")
+
+    def edges(self) -> Any:
+        """Each change of the outputs since power-up: time in ticks, line, level."""
+        count = self._ffi.new("uint32_t *")
+        first = self._library.board_edges(count)
+        kind = np.dtype([("at", "<u8"), ("line", "<u4"), ("level", "<u4")])
+        raw = self._ffi.buffer(first, count[0] * kind.itemsize)
+        return np.frombuffer(bytes(raw), dtype=kind)
 
     def why(self, status: int) -> str:
         """The board's problem, and what it said last."""

@@ -97,6 +97,11 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
     jobs = []
     for name in names:
         found = scenario.read(name, options.scenarios)
+        own = [] if options.board else scenario.of_board(found)
+        if own and options.scenario:
+            raise ToolError(f"{name}: {library.NO_BOARD.format(own[0])}")
+        if own:
+            continue  # Of all scenarios the host flies those that it can.
         for plant in found.plants:
             if options.plant in (None, plant):
                 made = f"{prefix(options)}{name}-{plant}"

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from keel.base.errors import ToolError, unknown
-from keel.flight.library import Copter
+from keel.flight.library import NO_BOARD, Copter
 from keel.flight.plants import MOTORS, THRUST_POWER
 from keel.flight.power import Battery
-from keel.flight.scenario import Fault, FirstFix, Shaking
+from keel.flight.scenario import BOARD_FAULTS, CHIP_FAULTS, Fault, FirstFix, Shaking
 from keel.flight.sensors import Broken
 
 DRIFT_MOST = 3.0  # rad/s
@@ -38,6 +38,8 @@ class Faults:
 
     def __post_init__(self) -> None:
         for fault in self.faults:
+            if fault.kind in (*BOARD_FAULTS, *CHIP_FAULTS) and not self.copter.has_board:
+                raise ToolError(NO_BOARD.format(fault.kind))
             if fault.task is not None and fault.task not in self.copter.tasks:
                 raise ToolError(unknown("task", fault.task, self.copter.tasks))
 
@@ -69,7 +71,9 @@ class Faults:
             "imu_silent": broken.silent,
             "imu_shout": broken.shouting,
         }
-        if fault.kind in sets:
+        if fault.kind in (*BOARD_FAULTS, *CHIP_FAULTS):
+            self._break(fault, on)
+        elif fault.kind in sets:
             (sets[fault.kind].add if on else sets[fault.kind].discard)(unit)
         elif fault.kind == "imu_vibration":
             broken.shaking = shaking_of(fault) if on else None
@@ -89,6 +93,13 @@ class Faults:
             broken.barometer_stuck = on
         else:
             self._set_value(fault, on)
+
+    def _break(self, fault: Fault, on: bool) -> None:
+        """The same for those of the board."""
+        task = self.copter.tasks.index(fault.task) if fault.task else 0
+        which = fault.unit or fault.bus or task
+        amount = fault.clocks or fault.saved_bytes or round(1000 * (fault.share or 0.0))
+        self.copter.breaks(fault.kind, which, amount, on)
 
     def _set_value(self, fault: Fault, on: bool) -> None:
         """The same for faults that have a value."""

@@ -204,10 +204,11 @@ METRICS = (
 def judged(scenario: Scenario, trace: Trace, unbroken: Trace | None) -> list[Finding]:
     """Every limit of the scenario."""
     if trace.problem:
-        return [Finding("flown", trace.problem, "to its end", False)]
+        return [Finding("flown", trace.problem, "to its end", False), *outputs(trace)]
     if trace.crash:
-        return [Finding("flown", trace.crash, "without a crash", False)]
+        return [Finding("flown", trace.crash, "without a crash", False), *outputs(trace)]
     return [
+        *outputs(trace),
         *risen(scenario.rises_m, trace),
         *numbers(scenario.limits, Judge(scenario, trace, unbroken)),
         *stayed(scenario.limits, trace),
@@ -223,6 +224,13 @@ def numbers(limits: Limits, judge: Judge) -> Iterator[Finding]:
         if limit is not None:
             value = float(getattr(judge, name)())
             yield Finding(name, f"{value:.3f}", f"{limit:g}", value <= limit, value)
+
+
+def outputs(trace: Trace) -> Iterator[Finding]:
+    """What the pins of a board did."""
+    if trace.pins is not None:
+        limit = "1000 to 2000 us, 400 Hz, low in 1000 us"
+        yield Finding("outputs", str(trace.pins), limit, not trace.pins.mistakes)
 
 
 def risen(height_m: float, trace: Trace) -> Iterator[Finding]:

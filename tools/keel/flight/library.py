@@ -129,6 +129,10 @@ REFUSED = (
 )
 
 
+# Why the host's copter does not fly a scenario.
+NO_BOARD = "fault {} is a board's own, which the host's copter does not have: BOARD=fmuv5 flies it"
+
+
 @dataclass(frozen=True)
 class Link:
     """A link of the copter's telemetry."""
@@ -149,6 +153,7 @@ class Copter:
     """The library in this process."""
 
     headers: Sequence[str] = (SIM,)  # Of what may be called.
+    has_board = False
 
     def __init__(self, path: Path) -> None:
         self._ffi = declared(self.headers)
@@ -247,6 +252,14 @@ class Copter:
     def overrun(self, task: int, runs: int, extra_us: int) -> None:
         """Make a task's next runs longer."""
         self._library.sim_overrun(task, runs, extra_us)
+
+    def breaks(self, fault: str, which: int, amount: int, on: bool) -> None:
+        """Break something of the board, or mend it."""
+        raise ToolError(NO_BOARD.format(fault))
+
+    def edges(self) -> Any:
+        """Each change of the board's outputs; None: there is no board."""
+        return None
 
     def send(self, link: int, data: bytes) -> int:
         """Bytes for the copter, by a link of telemetry; tells how many it has room for."""

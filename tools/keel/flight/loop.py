@@ -19,10 +19,11 @@ from typing import Any
 
 import numpy as np
 
-from keel.flight import device_frames, plants, wind
+from keel.flight import device_frames, pins, plants, wind
 from keel.flight.faults import Faults
 from keel.flight.library import Copter, Key, Link, checks_of, facts_of, modes, states
 from keel.flight.pilot import Pilot, Sight
+from keel.flight.pins import Pins
 from keel.flight.plants import Airframe, Plant, Truth
 from keel.flight.power import Battery
 from keel.flight.receivers import RADIO, RADIO_LINES, Receiver
@@ -84,6 +85,7 @@ class Trace:
     armed_s: float = 0.0  # When the motors started, since power-up.
     tasks: list[str] = field(default_factory=list)
     done: Any = None  # What became of each task, when the motors started and at the end.
+    pins: Pins | None = None  # What a board's outputs did.
 
     def column(self, name: str) -> Any:
         """A column of the truth."""
@@ -163,6 +165,7 @@ class Flight:
         self._still_air = scenario.wind == type(air)()
         self._motors: Sequence[float] = [0.0] * plants.MOTORS
         self._begun_ms = -1
+        self._now_ms = 0
         self._mode_channels = {
             mode: copter.mode_channel(number) for number, mode in enumerate(modes())
         }
@@ -201,6 +204,7 @@ class Flight:
 
     def step(self, now_ms: int) -> None:
         """A millisecond, which ends now."""
+        self._now_ms = now_ms
         time_s = self._time_s(now_ms)
         plant, copter = self._plant, self._copter
         self._faults.before_flight(now_ms / 1000.0)
@@ -289,7 +293,13 @@ class Flight:
             max(0, self._begun_ms) / 1000.0,
             self._copter.tasks,
             (self._done_before, self._copter.done()),
+            self._pins(),
         )
+
+    def _pins(self) -> Pins | None:
+        """What a board's outputs did."""
+        edges = self._copter.edges()
+        return None if edges is None else pins.measured(edges, 1000.0 * self._now_ms)
 
 
 def is_whole(truth: Truth) -> bool:

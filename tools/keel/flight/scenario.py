@@ -107,11 +107,33 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "motor_weak": ("motor", "share"),
     "battery_low": ("share",),
     "task_overrun": ("task", "runs", "extra_us"),
+    "imu_unplugged": ("unit",),
+    "spi_low": ("bus",),
+    "i2c_low": (),
+    "gps_silent": (),
+    "radio_unplugged": (),
+    "radio_line_noise": ("share",),
+    "oscillator_lost": (),
+    "task_hangs": ("task",),
+    "core_stops": (),
+    "brown_out": (),
 }
+# The board's own: they are on the model of a board alone. The second ones are not mended.
+BOARD_FAULTS = (
+    "imu_unplugged",
+    "spi_low",
+    "i2c_low",
+    "gps_silent",
+    "radio_unplugged",
+    "radio_line_noise",
+)
+CHIP_FAULTS = ("oscillator_lost", "task_hangs", "core_stops", "brown_out")
 # What it may have.
 OPTIONAL: dict[str, tuple[str, ...]] = {
     "imu_vibration": ("alike",),
     "magnetometer_current": ("along",),
+    "i2c_low": ("clocks",),
+    "brown_out": ("saved_bytes",),
 }
 FaultKind = Literal[
     "imu_freeze",
@@ -134,6 +156,16 @@ FaultKind = Literal[
     "motor_weak",
     "battery_low",
     "task_overrun",
+    "imu_unplugged",
+    "spi_low",
+    "i2c_low",
+    "gps_silent",
+    "radio_unplugged",
+    "radio_line_noise",
+    "oscillator_lost",
+    "task_hangs",
+    "core_stops",
+    "brown_out",
 ]
 
 
@@ -158,6 +190,9 @@ class Fault(Table):
     task: Text | None = None
     runs: Annotated[int, Field(ge=1, le=1000)] | None = None
     extra_us: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
+    bus: Literal[1, 2, 4] | None = None  # Of inertial units, of the FRAM, of the barometer.
+    clocks: Annotated[int, Field(ge=1, le=100)] | None = None  # After which SDA is let go.
+    saved_bytes: Annotated[int, Field(ge=1, le=32768)] | None = None  # Into the FRAM, before it.
 
 
 class Options(Table):
@@ -328,7 +363,8 @@ def fault_mistakes(number: int, fault: Fault) -> Iterator[Mistake]:
         if key not in given:
             yield ("fault", number, key), f"is missing: {fault.kind} needs {', '.join(needed)}"
     for key in given:
-        if key not in ("kind", "at_s", "until_s", *needed, *OPTIONAL.get(fault.kind, ())):
+        ends = () if fault.kind in CHIP_FAULTS else ("until_s",)
+        if key not in ("kind", "at_s", *ends, *needed, *OPTIONAL.get(fault.kind, ())):
             yield ("fault", number, key), f"is nothing that {fault.kind} has"
     if fault.until_s is not None and fault.until_s <= fault.at_s:
         yield ("fault", number, "until_s"), "is not after at_s"
@@ -346,6 +382,12 @@ def limit_mistakes(scenario: Scenario) -> Iterator[Mistake]:
             yield ("limits", "reach", number), "takes a state or a mode"
         if reach.by_s <= reach.from_s:
             yield ("limits", "reach", number, "by_s"), "is not after from_s"
+
+
+def of_board(scenario: Scenario) -> list[str]:
+    """The kinds of its faults that only the model of a board has."""
+    known = (*BOARD_FAULTS, *CHIP_FAULTS)
+    return [fault.kind for fault in scenario.fault if fault.kind in known]
 
 
 def names(folder: Path = FOLDER) -> list[str]:
