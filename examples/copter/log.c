@@ -8,7 +8,7 @@
 #define PERIOD_US 10000u
 #define WCET_US   100u
 #define BUDGET_US 112u
-#define PHASE_US  2100u
+#define PHASE_US  3500u
 
 #define ROUNDS_PER_S 100u
 #define DEFINITIONS  8u    /* In a run. */

@@ -11,7 +11,7 @@
 #define PERIOD_US 4000u
 #define WCET_US   250u
 #define BUDGET_US 262u
-#define PHASE_US  1900u
+#define PHASE_US  3100u
 #define EVERYBODY 0u
 
 /* Bytes of a frame around its payload. */

@@ -24,6 +24,7 @@ from keel.flight.library import Copter, Link
 from keel.flight.loop import Flight, Order, Trace
 from keel.flight.pilot import Pilot, Sight
 from keel.install import Toolchain
+from keel.timing import taskset
 
 PARTS = ("bsp", "include", "src", "examples", "specs")
 ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
@@ -147,6 +148,22 @@ def test_a_parameter_is_in_force_behind_the_next_start(
     assert flown.number_at(taken) == 1
 
 
+def test_the_board_declares_what_is_analysed(flown: BoardCopter) -> None:
+    """Row by row, with what a pass and a dispatch cost; Log comes with a card alone."""
+    flown.start(100, False)
+    assert rest(flown, 0, 1500) == 0
+    found = taskset.read(ROOT / "specs/tasksets/fmuv5.toml")
+    own = found.costs.pass_us + found.costs.dispatch_us
+    assert [
+        (task.name, task.class_name, task.period_us, task.phase_us, task.budget_us)
+        for task in flown.timed()
+    ] == [
+        (task.name, task.class_name, task.period, task.phase, task.budget + own)
+        for task in found.tasks
+        if task.name != "Log"
+    ]
+
+
 def of_two_units(name: str) -> scenario.Scenario:
     """A scenario with as many units as the board has."""
     found = scenario.read(name)
@@ -191,6 +208,10 @@ def test_the_image_hovers_as_the_hosts_copter_does(copter: Copter, flown: BoardC
     assert largest(own, host, ("north", "east", "up")) <= PLACE_M
     assert not since_begun(own, "skipped").any() and not since_begun(own, "overruns").any()
     assert since_begun(own, "runs").all()
+    timed = flown.timed()
+    assert [task.name for task in timed if not task.fits] == []
+    # The bursts of both units alone are 34 bytes of 8 bits at 6.75 MHz: 40.3 us.
+    assert next(it for it in timed if it.name == "Background IMU").longest_us > 40
 
 
 def test_equal_flights_are_equal(flown: BoardCopter) -> None:
