@@ -114,9 +114,7 @@ def test_across_a_release_of_real_time_tasks_there_is_no_room(
     fmuv5: TaskSet, name: str, phase: int
 ) -> None:
     """Background IMU is due at every millisecond."""
-    tasks = tuple(
-        replace(task, phase=phase) if task.name == name else task for task in fmuv5.tasks
-    )
+    tasks = tuple(replace(task, phase=phase) if task.name == name else task for task in fmuv5.tasks)
     assert analyse(replace(fmuv5, tasks=tasks)).collisions
 
 
