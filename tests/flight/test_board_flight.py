@@ -119,7 +119,7 @@ def ready_ms(copter: BoardCopter, silent: int | str | None) -> int:
         (None, "", 0),
         (0, "imu 1", 0),
         (1, "imu 2", 0),
-        ("barometer", "barometer", ABSOLUTE_PRESSURE),
+        ("barometer", "", ABSOLUTE_PRESSURE),  # It answers, but never has another sample.
         ("magnetometer", "magnetometer", MAGNETOMETER),
     ],
 )

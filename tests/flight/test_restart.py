@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from pyulog import ULog
-from test_black_box import MIB, files_of, new_card, pyfatfs
+from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 from test_board_lines import ARM, FIX_MS, FRAME_MS, HEIGHT_M, PLACE, pymavlink, resting, run_built
 from test_copter_image import images, mistaken, reports, sources, tools
 
@@ -126,7 +126,7 @@ def test_the_reason_is_in_the_next_log(
     chip.mishaps = [(2_500_000, "brown-out")]
     run_built(tools, images, chip, 5600)
     files = files_of(pyfatfs, bytes(chip.card.image))
-    logs = [ULog(io.BytesIO(files[name])) for name in sorted(files) if name.endswith(".ulg")]
+    logs = [ULog(io.BytesIO(files[name])) for name in sorted(set(files) - set(OTHERS))]
     assert [log.msg_info_dict.get("restart") for log in logs] == [None, "brown-out"]
 
 
