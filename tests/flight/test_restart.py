@@ -122,7 +122,7 @@ def test_the_reason_is_in_the_next_log(
 ) -> None:
     """RST-003."""
     chip = resting()
-    chip.card = SdCard(bytearray(new_card(pyfatfs, "FAT32", 150 * MIB)))
+    chip.card = SdCard(bytearray(new_card(pyfatfs, "FAT32", 300 * MIB)))  # For two logs.
     chip.mishaps = [(2_500_000, "brown-out")]
     run_built(tools, images, chip, 5600)
     files = files_of(pyfatfs, bytes(chip.card.image))
@@ -169,29 +169,32 @@ START, FAULT, CHIP, PORT, MAIN = (
     "examples/copter_on_board/main.c",
 )
 MISTAKES = (
-    (START, "keel_fault_take() && !restarts", "keel_fault_take()"),
-    (START, "restarts = keel_fault_take_restart();", "restarts = true;"),
-    (FAULT, "allowed ? RESTARTS : 0u", "RESTARTS"),
-    (CHIP, "restart = told ? restart_by(record) : reset;", "restart = reset;"),
+    (START, "keel_fault_take() && !restarts", "keel_fault_take() && restarts"),
+    (START, "= keel_fault_take_restart();", "= keel_fault_take_restart() || true;"),
+    (FAULT, "allowed ? RESTARTS : 0u", "(allowed || true) ? RESTARTS : 0u"),
+    (FAULT, "keel_fault_allow_restart(false);", ""),
+    (CHIP, "restart = told ?", "restart = (told && !good) ?"),
     (CHIP, "RCC->CSR |= RCC_CSR_RMVF;", ""),
     (CHIP, "record->code == KEEL_FAULT_WATCHDOG", "record->code != KEEL_FAULT_WATCHDOG"),
-    (PORT, ".restart = board->restart,", ""),
-    (PORT, 'KEEL_RESTART_WATCHDOG] = {"watchdog", false, true}', "KEEL_RESTART_WATCHDOG] = {0}"),
+    (PORT, ".notice_count = board->notices,", ""),
+    (PORT, '{"watchdog", false, true}', '{"watchdog", true, true}'),
     (MAIN, "keel_fault_allow_restart(true);", ""),
 )
 
 
 def bitten_then_faulty(tools: Toolchain, root: Path, made: firmware.Builder, mavlink: Any) -> None:
-    """A bite of the watchdog restarts it; a fault within the second behind that leaves it safe."""
+    """A bite of the watchdog restarts it; a fault within the second behind that leaves it safe; then
+    somebody resets it."""
     board = read_board(root, "fmuv5")
     parts = application_of(board, "copter").application
     image = made.link("keel", [*made.objects(parts), *made.fatfs()])
     chip = resting()
-    chip.mishaps = [(AT_US, "watchdog"), (AT_US + 900_000, "fault")]
-    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(2_900_000)
+    chip.mishaps = [(AT_US, "watchdog"), (AT_US + 900_000, "fault"), (AT_US + 1_100_000, "pin")]
+    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(3_000_000)
     assert "start by: watchdog\r\nfault 1 " in chip.text
     assert "safe state: fault 2 exception 6" in chip.text
-    assert (chip.resets, len(chip.begun_us)) == (3, 2)
+    assert chip.text.partition("safe state")[2].count("start by: reset pin\r\n") == 1
+    assert (chip.resets, len(chip.begun_us)) == (4, 2)
     assert reasons_of(mavlink, chip) == ["watchdog"]
 
 
