@@ -68,7 +68,8 @@ typedef enum keel_restart {
 /**
  * Why the chip was reset, as its flags tell (requirement PWR-005). They stay until they are
  * cleared, so there may be those of several resets: a watchdog's counts first, then a supply that
- * came, one that fell, and what asked for it. Every reset pulls the reset pin: its flag counts last.
+ * came, one that fell, and what asked for it. Every reset pulls the reset pin, whose flag counts
+ * last.
  *
  * @param csr the content of RCC_CSR
  * @return neither KEEL_RESTART_CLOCK nor KEEL_RESTART_FAULT

@@ -183,8 +183,8 @@ MISTAKES = (
 
 
 def bitten_then_faulty(tools: Toolchain, root: Path, made: firmware.Builder, mavlink: Any) -> None:
-    """A bite of the watchdog restarts it; a fault within the second behind that leaves it safe; then
-    somebody resets it."""
+    """A bite of the watchdog restarts it; a fault within the second behind that leaves it safe.
+    Then somebody resets it."""
     board = read_board(root, "fmuv5")
     parts = application_of(board, "copter").application
     image = made.link("keel", [*made.objects(parts), *made.fatfs()])
