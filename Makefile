@@ -33,6 +33,7 @@ ALL_TOOLS := prove test lint coverage bench fuzz oracles firmware stack target r
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/keel timing
+OWN_TASKS = specs/tasksets/$(BOARD).toml
 
 # The sizes of a build other than the shipped one.
 SIZES = $(if $(CAPACITY),--size KEEL_QUEUE_CAPACITY=$(CAPACITY)) \
@@ -100,6 +101,7 @@ analyze: python ## does a task set hold? (TASKSET=file.toml, ARGS=--phases, ARGS
 
 firmware: python ## build a board's image (BOARD=fmuv5; APP=copter: the copter; ARGS='--app FOLDER': another main)
 	@$(TIMING) table --check specs/tasksets/urpilot.toml examples/urpilot
+	@$(if $(filter copter,$(APP)),$(if $(wildcard $(OWN_TASKS)),$(TIMING) analyze --verdict "$(OWN_TASKS)",:),:)
 	@python3 tools/keel firmware "$(BOARD)" $(if $(APP),--named "$(APP)") $(ARGS)
 
 flash: python ## write a board's image to the board (BOARD=nucleo_f767zi; ARGS='--tool st-flash')

@@ -21,6 +21,7 @@
 #define WORD_B          4u
 #define CHECK_SEED      0x811C9DC5u /* FNV-1a. */
 #define CHECK_PRIME     0x01000193u
+#define RESTARTS        0x52535452u
 
 /* Kept over a reset; not cleared at the start. */
 static keel_fault_record_t keel_fault_record __attribute__((section(".backup")));
@@ -33,6 +34,9 @@ typedef struct checked_word {
 
 static checked_word_t watched; /* The scheduler's address. */
 static checked_word_t stop_code;
+
+/* Behind the record, and kept as that is: RESTARTS if the application is to be started again. */
+static checked_word_t restarts __attribute__((section(".backup.restarts")));
 
 static void set_checked(checked_word_t *word, uint32_t value)
 {
@@ -89,6 +93,19 @@ bool keel_fault_take(void)
         keel_fault_seal(&keel_fault_record);
     }
     return fresh;
+}
+
+void keel_fault_allow_restart(bool allowed)
+{
+    set_checked(&restarts, allowed ? RESTARTS : 0u);
+}
+
+bool keel_fault_take_restart(void)
+{
+    const bool allowed = get_checked(&restarts) == RESTARTS;
+
+    keel_fault_allow_restart(false);
+    return allowed;
 }
 
 static bool lies_in(uint32_t address, uint32_t size_b, const uint32_t *start, const uint32_t *end)

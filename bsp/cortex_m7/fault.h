@@ -5,7 +5,8 @@
  *
  * Every fault, unexpected exception and failed assertion ends the same way: outputs off, a record
  * of the registers, the fault's status and the running task, then a reset. The start-up code finds
- * the record and enters the safe state instead of the application.
+ * the record and enters the safe state instead of the application, unless that has said before that
+ * it starts safely itself.
  */
 #ifndef KEEL_BSP_CORTEX_M7_FAULT_H
 #define KEEL_BSP_CORTEX_M7_FAULT_H
@@ -64,6 +65,18 @@ const keel_fault_record_t *keel_fault_last(void);
  * So a pilot's next reset starts the application again; the record stays until power goes.
  */
 bool keel_fault_take(void);
+
+/**
+ * Says whether the application is to be started again behind the next fault: for one that begins
+ * with its outputs off, and keeps them off until somebody asks for more. It holds for one reset,
+ * whatever that comes from, so that what faults at its start ends in the safe state.
+ *
+ * @param allowed whether it is
+ */
+void keel_fault_allow_restart(bool allowed);
+
+/** Whether it was allowed before this reset; asking ends it. For the start-up code. */
+bool keel_fault_take_restart(void);
 
 /** Writes the last fault to the console. */
 void keel_fault_print(void);

@@ -119,7 +119,8 @@ static void end(int status)
     keel_board_halt(status);
 }
 
-/* Where a reset ends that follows a fault: the fault is told, and there is no application. */
+/* Where a reset ends that follows a fault, unless the application has allowed another: the fault is
+ * told, and there is no application. */
 static void stay_safe(void) __attribute__((noreturn));
 
 static void stay_safe(void)
@@ -133,6 +134,8 @@ static void stay_safe(void)
 
 void keel_reset(void)
 {
+    bool restarts;
+
     stop_leftovers();
     start_fpu();
     start_faults();
@@ -143,7 +146,8 @@ void keel_reset(void)
     fill_memory();
     keel_mpu_start(keel_board_regions, keel_board_region_count);
     keel_board_start();
-    if (keel_fault_take()) {
+    restarts = keel_fault_take_restart();
+    if (keel_fault_take() && !restarts) {
         stay_safe();
     }
     end(main());

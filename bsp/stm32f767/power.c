@@ -41,3 +41,22 @@ keel_bsp_status_t keel_backup_open(keel_rcc_t *rcc, keel_pwr_t *pwr, const keel_
     return keel_wait_for(&pwr->CR1, PWR_CR1_DBP, PWR_CR1_DBP, wait) ? KEEL_BSP_OK
                                                                     : KEEL_BSP_TIMEOUT;
 }
+
+keel_restart_t keel_restart_of(uint32_t csr)
+{
+    /* What counts most comes last. */
+    static const struct {
+        uint32_t flags;
+        keel_restart_t restart;
+    } order[] = {{RCC_CSR_PINRSTF, KEEL_RESTART_PIN},
+                 {RCC_CSR_SFTRSTF, KEEL_RESTART_ASKED},
+                 {RCC_CSR_BORRSTF, KEEL_RESTART_BROWNOUT},
+                 {RCC_CSR_PORRSTF, KEEL_RESTART_POWER},
+                 {RCC_CSR_IWDGRSTF | RCC_CSR_WWDGRSTF, KEEL_RESTART_WATCHDOG}};
+    keel_restart_t found = KEEL_RESTART_UNTOLD;
+
+    for (uint32_t i = 0u; i < (sizeof(order) / sizeof(order[0])); i++) {
+        found = ((csr & order[i].flags) != 0u) ? order[i].restart : found;
+    }
+    return found;
+}

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file power.h
- * @brief Brown-out level and backup memory.
+ * @brief Brown-out level, backup memory, and why the chip was reset.
  */
 #ifndef KEEL_BSP_STM32F767_POWER_H
 #define KEEL_BSP_STM32F767_POWER_H
@@ -52,5 +52,28 @@ keel_bsp_status_t keel_brownout_set(keel_flash_t *flash, keel_brownout_t level,
  * @return KEEL_BSP_OK, or KEEL_BSP_TIMEOUT
  */
 keel_bsp_status_t keel_backup_open(keel_rcc_t *rcc, keel_pwr_t *pwr, const keel_wait_t *wait);
+
+/** Why the chip starts. */
+typedef enum keel_restart {
+    KEEL_RESTART_POWER = 0, /**< The supply came. */
+    KEEL_RESTART_ASKED,     /**< Software asked for it: the image, or a boot loader. */
+    KEEL_RESTART_PIN,       /**< The reset pin, by a button or a probe. */
+    KEEL_RESTART_UNTOLD,    /**< The flags tell of none: somebody has cleared them. */
+    KEEL_RESTART_BROWNOUT,  /**< The supply fell below the brown-out level, but not away. */
+    KEEL_RESTART_WATCHDOG,  /**< A watchdog was not fed. */
+    KEEL_RESTART_CLOCK,     /**< The external clock was lost; told by a record alone. */
+    KEEL_RESTART_FAULT      /**< A fault; told by a record alone. */
+} keel_restart_t;
+
+/**
+ * Why the chip was reset, as its flags tell (requirement PWR-005). They stay until they are
+ * cleared, so there may be those of several resets: a watchdog's counts first, then a supply that
+ * came, one that fell, and what asked for it. Every reset pulls the reset pin, whose flag counts
+ * last.
+ *
+ * @param csr the content of RCC_CSR
+ * @return neither KEEL_RESTART_CLOCK nor KEEL_RESTART_FAULT
+ */
+keel_restart_t keel_restart_of(uint32_t csr);
 
 #endif

@@ -8,7 +8,7 @@
 #define PERIOD_US 10000u
 #define WCET_US   100u
 #define BUDGET_US 112u
-#define PHASE_US  2100u
+#define PHASE_US  3500u
 
 #define ROUNDS_PER_S 100u
 #define DEFINITIONS  8u    /* In a run. */
@@ -16,6 +16,7 @@
 
 static const keel_ulog_name_t system_name = {"sys_name"};
 static const char keel_name[] = "Keel";
+static const keel_ulog_name_t restart_name = {"restart"};
 
 static const keel_ulog_field_t time_field = {
     .name = {"timestamp"}, .type = KEEL_ULOG_UINT64, .count = 1u};
@@ -69,16 +70,21 @@ static bool define_parameter(copter_t *copter, uint16_t index)
                                bytes);
 }
 
-/* The begin, flag bits and the system's name. */
-static bool define_head(copter_log_t *log, uint32_t number, uint64_t now_us)
+/* The begin, flag bits, the system's name, and why it started if nobody wanted it to. */
+static bool define_head(copter_t *copter, uint32_t number)
 {
+    copter_log_t *const log = &copter->log;
+
     if (number == 0u) {
-        keel_ulog_begin(&log->message, now_us);
+        keel_ulog_begin(&log->message, copter->scheduler.clock.now_us);
     } else if (number == 1u) {
         keel_ulog_flags(&log->message);
-    } else {
+    } else if (number == 2u) {
         (void)keel_ulog_information(&log->message, &system_name, keel_name,
                                     (uint8_t)(sizeof keel_name - 1u));
+    } else {
+        (void)keel_ulog_information(&log->message, &restart_name, copter->port->restart,
+                                    (uint8_t)strlen(copter->port->restart));
     }
     return true;
 }
@@ -101,14 +107,14 @@ static bool define_subscription(copter_log_t *log, uint32_t number)
 static bool define(copter_t *copter, uint32_t number)
 {
     copter_log_t *const log = &copter->log;
-    const uint32_t formats = 3u;
+    const uint32_t formats = (copter->port->restart != NULL) ? 4u : 3u;
     const uint32_t parameters = formats + copter_topics;
     const uint32_t trace = parameters + COPTER_PARAMETER_COUNT;
     const uint32_t subscriptions = trace + (log->traces ? (2u * KEEL_TRACE_TOPICS) : 0u);
     bool is_made = true;
 
     if (number < formats) {
-        is_made = define_head(log, number, copter->scheduler.clock.now_us);
+        is_made = define_head(copter, number);
     } else if (number < parameters) {
         is_made = define_format(log, &copter_topic[number - formats]);
     } else if (number < trace) {

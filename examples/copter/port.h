@@ -68,6 +68,16 @@ typedef struct copter_chip {
     bool has_temperature; /**< Whether the temperature is known. */
 } copter_chip_t;
 
+/** Notices of a port at most. */
+#define COPTER_NOTICES 10u
+
+/** A text for whoever is to fly: that it restarted, or that a device fails. */
+typedef struct copter_notice {
+    const char *first;
+    const char *then; /**< Follows it. */
+    bool is_urgent;   /**< It ended a flight, say. */
+} copter_notice_t;
+
 /** The functions of a port. */
 typedef struct copter_port {
     keel_clock_fn_t read_clock;
@@ -97,6 +107,11 @@ typedef struct copter_port {
     void (*end_run)(void *context, uint32_t row, uint32_t wcet_us);
     const keel_medium_t *memory; /**< Keeps parameters; null: there is none. */
     const uint8_t *uid;          /**< COPTER_UID_BYTES that no other chip has; null: none. */
+    /** Why it started when nobody wanted it to, as "watchdog"; null: it was switched on, or
+        somebody asked for it. It is in the log. */
+    const char *restart;
+    const copter_notice_t *notices; /**< Told again and again until motors start; null: none. */
+    uint32_t notice_count;          /**< COPTER_NOTICES at most. */
     /** Starts all anew, as power that is switched on does; returns on a host alone. Null: there is
         no way. Called with the motors off. */
     void (*reboot)(void *context);

@@ -11,8 +11,10 @@
 #define PERIOD_US 4000u
 #define WCET_US   250u
 #define BUDGET_US 262u
-#define PHASE_US  1900u
+#define PHASE_US  3100u
 #define EVERYBODY 0u
+
+#define NOTICES_US 10000000u /* They are told so often. */
 
 /* Bytes of a frame around its payload. */
 #define AROUND                                                                                     \
@@ -217,6 +219,27 @@ static void tell_unconfirmed(copter_telemetry_t *self, bool lands)
                     "landing: ", "no two inertial units agree");
     }
     self->is_unconfirmed = lands;
+}
+
+/* Tells the port's notices again and again, for whoever connects later, until motors turn. */
+static void tell_notices(copter_t *copter)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const copter_port_t *const port = copter->port;
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+
+    self->has_flown = self->has_flown || copter->state.mode.motors;
+    if (!self->has_flown && (now_us >= self->notices_us)) {
+        for (uint32_t i = 0u; i < port->notice_count; i++) {
+            const copter_notice_t *const notice = &port->notices[i];
+
+            copter_text(self,
+                        notice->is_urgent ? (uint8_t)MAV_SEVERITY_CRITICAL
+                                          : (uint8_t)MAV_SEVERITY_WARNING,
+                        notice->first, notice->then);
+        }
+        self->notices_us = now_us + NOTICES_US;
+    }
 }
 
 /* The pilot hears this of votes. */
@@ -437,6 +460,7 @@ void copter_telemetry(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
 
+    tell_notices(copter);
     tell_state(copter);
     tell_mode(self, copter_mavlink_mode_told(copter));
     tell_fence(self, (copter->state.mode.seen & KEEL_MODE_FENCE_BREACHED) != 0u);

@@ -138,6 +138,8 @@ typedef struct copter_telemetry {
     bool is_outside;        /**< Of the fence, in the last run. */
     bool is_crashed;        /**< As it was told. */
     bool is_unconfirmed;    /**< The same. */
+    bool has_flown;         /**< Motors have turned since the start. */
+    uint64_t notices_us;    /**< When the port's notices are to be told again. */
     uint32_t turns;         /**< What was taken of calibration.turns. */
     uint64_t turned_us;     /**< When it was told that it turns. */
     uint32_t field_ends;    /**< What was taken of calibration.field_ends. */

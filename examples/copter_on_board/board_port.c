@@ -4,6 +4,7 @@
 #include "board.h"
 #include "common/wait.h"
 #include "console.h"
+#include "cortex_m7/fault.h"
 #include "cortex_m7/memory.h"
 #include "cortex_m7/startup.h"
 
@@ -258,6 +259,34 @@ static void say(const char *device, uint64_t status, const char *missing)
     keel_console_text("\n");
 }
 
+/* The pilot is to hear of a device as well, who does not see the console. */
+static void note(board_port_t *board, const copter_notice_t *notice)
+{
+    if (board->notices < COPTER_NOTICES) {
+        board->notice[board->notices] = *notice;
+        board->notices++;
+    }
+}
+
+/* A device that the board has. */
+static void say_status(board_port_t *board, const char *device, uint64_t status)
+{
+    say(device, status, NULL);
+    if (status != 0u) {
+        note(board, &(copter_notice_t){device, ": fails", false});
+    }
+}
+
+/* A device that a board may lack. */
+static void say_device(board_port_t *board, const char *device, uint64_t status, bool is_there)
+{
+    if (is_there) {
+        say_status(board, device, status);
+    } else {
+        say(device, status, "the board has none");
+    }
+}
+
 static bool is_failure(keel_bsp_status_t status)
 {
     return (status != KEEL_BSP_OK) && (status != KEEL_BSP_WAIT);
@@ -318,7 +347,7 @@ static void start_units(board_port_t *board)
     keel_chip_inertial_begin();
     for (uint32_t i = 0u; i < count; i++) {
         board->imu[i].status = keel_chip_inertial_start(i);
-        say(name[i], (uint64_t)board->imu[i].status, NULL);
+        say_status(board, name[i], (uint64_t)board->imu[i].status);
     }
     for (uint32_t i = count; i < COPTER_IMUS; i++) {
         say(name[i], 0u, "the board has none");
@@ -331,9 +360,9 @@ static void start_sensors(board_port_t *board)
 
     start_units(board);
     status = start_barometer(board);
-    say("barometer", (uint64_t)status, board->has_barometer ? NULL : "the board has none");
+    say_device(board, "barometer", (uint64_t)status, board->has_barometer);
     status = start_magnetometer(board);
-    say("magnetometer", (uint64_t)status, board->has_magnetometer ? NULL : "the board has none");
+    say_device(board, "magnetometer", (uint64_t)status, board->has_magnetometer);
 }
 
 static void start_lines(board_lines_t *lines)
@@ -364,7 +393,7 @@ static void start_converter(board_port_t *board)
 
     (void)keel_power_module_init(&board->scale, &config);
     board->adc = keel_chip_adc_start();
-    say("adc", (uint64_t)board->adc, NULL);
+    say_status(board, "adc", (uint64_t)board->adc);
     say("power modules", 0u, (keel_chip_analogue_count() == 0u) ? "the board has none" : NULL);
 }
 
@@ -376,8 +405,11 @@ static void start_memory(board_port_t *board)
 
     board->memory = keel_chip_memory(&board->medium, &slot_bytes);
     board->keeps = (board->memory == KEEL_BSP_OK) && (board->medium.erase == NULL);
-    say("parameters", (uint64_t)board->memory,
-        (board->medium.erase != NULL) ? "not kept in flash" : NULL);
+    if (board->medium.erase != NULL) {
+        say("parameters", (uint64_t)board->memory, "not kept in flash");
+    } else {
+        say_status(board, "parameters", (uint64_t)board->memory);
+    }
 }
 
 static void start_log(board_port_t *board)
@@ -388,7 +420,41 @@ static void start_log(board_port_t *board)
     if (board->has_slot && (keel_black_box_init(&board->box, &config) == KEEL_OK)) {
         board->card = keel_black_box_open(&board->box, keel_board_clock_us(NULL));
     }
-    say("card", (uint64_t)board->card, board->has_slot ? NULL : "the board has no slot");
+    if (board->has_slot) {
+        say_status(board, "card", (uint64_t)board->card);
+    } else {
+        say("card", (uint64_t)board->card, "the board has no slot");
+    }
+}
+
+/* Why it started, on the console, and for the port if nobody wanted it. Behind a fault the console
+ * gets its record as well. */
+static void tell_restart(board_port_t *board)
+{
+    static const struct {
+        const char *words;
+        bool is_wanted;
+        bool has_record;
+    } row[] = {[KEEL_RESTART_POWER] = {"power", true, false},
+               [KEEL_RESTART_ASKED] = {"asked for", true, false},
+               [KEEL_RESTART_PIN] = {"reset pin", false, false},
+               [KEEL_RESTART_UNTOLD] = {"not told by the chip", true, false},
+               [KEEL_RESTART_BROWNOUT] = {"brown-out", false, false},
+               [KEEL_RESTART_WATCHDOG] = {"watchdog", false, true},
+               [KEEL_RESTART_CLOCK] = {"clock lost", false, true},
+               [KEEL_RESTART_FAULT] = {"fault", false, true}};
+    const keel_restart_t restart = keel_chip_restart();
+
+    keel_console_text("start by: ");
+    keel_console_text(row[restart].words);
+    keel_console_text("\n");
+    if (row[restart].has_record) {
+        keel_fault_print();
+    }
+    if (!row[restart].is_wanted) {
+        board->restart = row[restart].words;
+        note(board, &(copter_notice_t){"disarmed by a restart: ", row[restart].words, true});
+    }
 }
 
 /* What the board declares. A copter has two at least, so a board with one never arms: the check of
@@ -405,6 +471,7 @@ copter_port_t board_port_start(board_port_t *board)
     *board = (board_port_t){.turning = false, .stack_looked = keel_stack_bottom};
     board->stack_free_b = ((uint32_t)keel_stack_top - (uint32_t)keel_stack_bottom) -
                           keel_stack_used_b();
+    tell_restart(board);
     start_sensors(board);
     start_converter(board);
     start_memory(board);
@@ -429,5 +496,8 @@ copter_port_t board_port_start(board_port_t *board)
                            .end_run = end_run,
                            .memory = board->keeps ? &board->medium : NULL,
                            .uid = board->uid,
+                           .restart = board->restart,
+                           .notices = board->notice,
+                           .notice_count = board->notices,
                            .reboot = reboot};
 }

@@ -65,6 +65,9 @@ typedef struct board_port {
     keel_disk_t disk;
     keel_black_box_t box;
     uint8_t uid[COPTER_UID_BYTES];
+    const char *restart; /**< As the port tells it. */
+    copter_notice_t notice[COPTER_NOTICES];
+    uint32_t notices; /**< So many of them. */
 } board_port_t;
 
 /**

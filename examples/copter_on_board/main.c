@@ -9,6 +9,11 @@
  *
  * A line on the console tells every second how it goes. A refusal of the kernel ends as a fault
  * does, with the outputs off.
+ *
+ * Behind a fault, a bite of the watchdog among them, it starts again, disarmed as after power-on,
+ * and tells why. It never flies on: nobody could check an attitude from before, and motors would
+ * start beside whoever stands at a fallen aircraft. What faults within the first second of its
+ * run ends in the safe state of all images (bsp/cortex_m7/fault.h).
  */
 #include "board.h"
 #include "board_port.h"
@@ -153,6 +158,7 @@ int main(void)
         turn_panel();
         if ((copter.scheduler.clock.now_us - reported_us) >= REPORT_EVERY_US) {
             reported_us = copter.scheduler.clock.now_us;
+            keel_fault_allow_restart(true);
             print_report();
         }
         use_idle_time();

@@ -100,6 +100,31 @@ static void PWR_004_opens_the_backup_memory(void)
     TEST_ASSERT_EQUAL_HEX32(0x10000000u, rcc.APB1ENR);
 }
 
+/* Flags by RM0410, 5.3.21, in which the figure of the reset circuit has every source pull the pin:
+ * after power-on 0x0E000000, and behind each other reset PINRSTF beside its own. */
+static void PWR_005_each_reset_by_its_flags(void)
+{
+    static const struct {
+        uint32_t csr;
+        keel_restart_t restart;
+    } told[] = {{0x0E000000u, KEEL_RESTART_POWER},    {0x06000000u, KEEL_RESTART_BROWNOUT},
+                {0x24000000u, KEEL_RESTART_WATCHDOG}, {0x44000000u, KEEL_RESTART_WATCHDOG},
+                {0x14000000u, KEEL_RESTART_ASKED},    {0x04000000u, KEEL_RESTART_PIN},
+                {0x00000003u, KEEL_RESTART_UNTOLD}};
+
+    for (uint32_t i = 0u; i < (sizeof told / sizeof told[0]); i++) {
+        TEST_ASSERT_EQUAL_HEX32(told[i].restart, keel_restart_of(told[i].csr));
+    }
+}
+
+/* A boot loader that resets once more leaves the flags before. */
+static void PWR_005_of_several_resets_the_worst(void)
+{
+    TEST_ASSERT_EQUAL(KEEL_RESTART_WATCHDOG, keel_restart_of(0x3E000000u));
+    TEST_ASSERT_EQUAL(KEEL_RESTART_POWER, keel_restart_of(0x1E000000u));
+    TEST_ASSERT_EQUAL(KEEL_RESTART_BROWNOUT, keel_restart_of(0x16000000u));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -110,5 +135,7 @@ int main(void)
     RUN_TEST(PWR_003_option_bytes_that_never_end);
     RUN_TEST(PWR_003_a_level_that_is_not_taken);
     RUN_TEST(PWR_004_opens_the_backup_memory);
+    RUN_TEST(PWR_005_each_reset_by_its_flags);
+    RUN_TEST(PWR_005_of_several_resets_the_worst);
     return UNITY_END();
 }

@@ -15,6 +15,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from test_board_lines import pymavlink
+from test_copter_image import tools
 
 from keel.base.errors import ROOT, ToolError
 from keel.boards.dwarf import Variables
@@ -24,10 +26,16 @@ from keel.flight.library import Copter, Link
 from keel.flight.loop import Flight, Order, Trace
 from keel.flight.pilot import Pilot, Sight
 from keel.install import Toolchain
+from keel.timing import taskset
 
+__all__ = ["pymavlink", "tools"]  # Fixtures.
 PARTS = ("bsp", "include", "src", "examples", "specs")
 ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
 ARMS_S = 9.6
+READY_MS = 2000
+UNKNOWN = 2**32 - 1
+# Of MAVLink's common.xml: MAV_SYS_STATUS_SENSOR, and MAV_MODE_FLAG_SAFETY_ARMED.
+MAGNETOMETER, ABSOLUTE_PRESSURE, SATELLITES, RECEIVER, ARMED = 0x04, 0x08, 0x20, 0x10000, 0x80
 
 
 @pytest.fixture(scope="module")
@@ -47,8 +55,9 @@ def flown(made: Path) -> BoardCopter:
     return BoardCopter(made)
 
 
-def rest(copter: BoardCopter, from_ms: int, to_ms: int, silent: int | None = None) -> int:
-    """On the ground, with noise; one unit may be silent. The first status that is not 0."""
+def rest(copter: BoardCopter, from_ms: int, to_ms: int, silent: int | str | None = None) -> int:
+    """On the ground, with noise; a unit or another sensor may be silent. The first status that is
+    not 0."""
     noise = np.random.default_rng(1)
     for now_ms in range(from_ms + 1, to_ms + 1):
         for unit, imu in enumerate(copter.sensors["imu"]):
@@ -56,10 +65,11 @@ def rest(copter: BoardCopter, from_ms: int, to_ms: int, silent: int | None = Non
                 imu["accelerometer"] = (0.0, 0.0, -9.81) + 0.1 * noise.standard_normal(3)
                 imu["gyroscope"] = 0.01 * noise.standard_normal(3)
                 imu["count"] += 1
-        if now_ms % 10 == 0:
+        if now_ms % 10 == 0 and silent != "magnetometer":
             field = copter.sensors["magnetometer"]
             field["field"] = (20.0, 1.0, 43.0) + noise.standard_normal(3)
             field["count"] += 1
+        if now_ms % 10 == 0 and silent != "barometer":
             air = copter.sensors["barometer"]
             air["pressure"], air["temperature"] = 95_000.0 + 2.0 * noise.standard_normal(), 1520
             air["count"] += 1
@@ -79,7 +89,8 @@ def test_the_board_says_what_is_there_and_measures_what_the_plant_tells(flown: B
     flown.start(100, False)
     assert rest(flown, 0, 3600) == 0
     said = flown.text().splitlines()
-    assert said[:3] == ["Keel on fmuv5: copter", "imu 1 status 0", "imu 2 status 0"]
+    assert said[:2] == ["Keel on fmuv5: copter", "start by: power"]
+    assert said[2:4] == ["imu 1 status 0", "imu 2 status 0"]
     found = counts(flown)
     assert found["imu1"] >= 2900 and found["imu2"] >= 2900
     assert (found["failed1"], found["failed2"], found["skipped"], found["overruns"]) == (0, 0, 0, 0)
@@ -88,6 +99,58 @@ def test_the_board_says_what_is_there_and_measures_what_the_plant_tells(flown: B
     flown.look()
     down = flown.view["vote"][2]
     assert abs(down + 9.81) < 0.3
+
+
+def ready_ms(copter: BoardCopter, silent: int | str | None) -> int:
+    """When, since power-on, its state machine has made a step, and is disarmed."""
+    for now_ms in range(0, READY_MS, 10):
+        assert rest(copter, now_ms, now_ms + 10, silent) == 0, copter.why(0)
+        copter.look()
+        up = copter.view["blocking_checks"] != UNKNOWN
+        if up and any(it.runs for it in copter.timed() if it.name == "State machine"):
+            assert copter.view["state"] == 0
+            return now_ms + 10
+    raise AssertionError(f"not ready: {copter.text()}")
+
+
+@pytest.mark.parametrize(
+    ("silent", "console", "lacks"),
+    [
+        (None, "", 0),
+        (0, "imu 1", 0),
+        (1, "imu 2", 0),
+        ("barometer", "", ABSOLUTE_PRESSURE),  # It answers, but never has another sample.
+        ("magnetometer", "magnetometer", MAGNETOMETER),
+    ],
+)
+def test_it_is_disarmed_two_seconds_after_power_on_and_names_what_is_absent(
+    flown: BoardCopter, pymavlink: Any, silent: int | str | None, console: str, lacks: int
+) -> None:
+    """RST-004. Neither the pilot's receiver nor that of satellites sends, and the slot is empty."""
+    flown.start(100, False)
+    ready = ready_ms(flown, silent)
+    assert ready < READY_MS
+    told = b""
+    for now_ms in range(ready, 3500, 10):
+        assert rest(flown, now_ms, now_ms + 10, silent) == 0
+        told += flown.receive(0)
+    failing = {
+        line.partition(" status ")[0]
+        for line in flown.text().splitlines()
+        if " status " in line and not line.endswith(" status 0")
+    }
+    assert failing == {"card", console} - {""}
+    messages = pymavlink.MAVLink(None).parse_buffer(told)
+    texts = {it.text for it in messages if it.get_type() == "STATUSTEXT"}
+    assert {text for text in texts if text.endswith(": fails")} == {
+        f"{it}: fails" for it in failing
+    }
+    assert "radio: nothing comes from the receiver" in texts
+    assert counts(flown)["fixes"] == counts(flown)["radio"] == 0
+    health = [it for it in messages if it.get_type() == "SYS_STATUS"][-1]
+    missing = ~health.onboard_control_sensors_health & health.onboard_control_sensors_enabled
+    assert missing & (SATELLITES | RECEIVER | lacks) == SATELLITES | RECEIVER | lacks
+    assert not any(it.base_mode & ARMED for it in messages if it.get_type() == "HEARTBEAT")
 
 
 def test_a_unit_whose_count_stands_is_silent_and_the_other_goes_on(flown: BoardCopter) -> None:
@@ -147,6 +210,22 @@ def test_a_parameter_is_in_force_behind_the_next_start(
     assert flown.number_at(taken) == 1
 
 
+def test_the_board_declares_what_is_analysed(flown: BoardCopter) -> None:
+    """Row by row, with what a pass and a dispatch cost; Log comes with a card alone."""
+    flown.start(100, False)
+    assert rest(flown, 0, 1500) == 0
+    found = taskset.read(ROOT / "specs/tasksets/fmuv5.toml")
+    own = found.costs.pass_us + found.costs.dispatch_us
+    assert [
+        (task.name, task.class_name, task.period_us, task.phase_us, task.budget_us)
+        for task in flown.timed()
+    ] == [
+        (task.name, task.class_name, task.period, task.phase, task.budget + own)
+        for task in found.tasks
+        if task.name != "Log"
+    ]
+
+
 def of_two_units(name: str) -> scenario.Scenario:
     """A scenario with as many units as the board has."""
     found = scenario.read(name)
@@ -191,6 +270,10 @@ def test_the_image_hovers_as_the_hosts_copter_does(copter: Copter, flown: BoardC
     assert largest(own, host, ("north", "east", "up")) <= PLACE_M
     assert not since_begun(own, "skipped").any() and not since_begun(own, "overruns").any()
     assert since_begun(own, "runs").all()
+    timed = flown.timed()
+    assert [task.name for task in timed if not task.fits] == []
+    # The bursts of both units alone are 34 bytes of 8 bits at 6.75 MHz: 40.3 us.
+    assert next(it for it in timed if it.name == "Background IMU").longest_us > 40
 
 
 def test_equal_flights_are_equal(flown: BoardCopter) -> None:

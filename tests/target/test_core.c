@@ -217,6 +217,17 @@ static void BRD_006_safe_state_is_entered_once(void)
     TEST_ASSERT_NULL(keel_fault_last());
 }
 
+static void RST_001_another_start_is_allowed_once(void)
+{
+    TEST_ASSERT_FALSE(keel_fault_take_restart()); /* Nobody has. */
+    keel_fault_allow_restart(true);
+    TEST_ASSERT_TRUE(keel_fault_take_restart());
+    TEST_ASSERT_FALSE(keel_fault_take_restart());
+    keel_fault_allow_restart(true);
+    keel_fault_allow_restart(false);
+    TEST_ASSERT_FALSE(keel_fault_take_restart());
+}
+
 /* Three times its limit; a watchdog that bites ends the program. */
 static void BRD_010_watchdog_is_fed(void)
 {
@@ -292,6 +303,7 @@ int main(void)
     RUN_TEST(BRD_006_no_fault_after_power_on);
     RUN_TEST(BRD_006_a_record_is_whole_or_not);
     RUN_TEST(BRD_006_safe_state_is_entered_once);
+    RUN_TEST(RST_001_another_start_is_allowed_once);
     RUN_TEST(BRD_010_watchdog_is_fed);
     RUN_TEST(BRD_007_stack_use_is_seen);
     return UNITY_END();

@@ -65,6 +65,59 @@ def test_at_the_papers_phase_there_is_no_room(copter: TaskSet) -> None:
     assert analyse(replace(copter, tasks=tasks)).collisions
 
 
+# --- The board's own set. ---
+
+
+@pytest.fixture(scope="module")
+def fmuv5() -> TaskSet:
+    return read(ROOT / "specs/tasksets/fmuv5.toml")
+
+
+def own_task(source: str) -> dict[str, int]:
+    """What a task beside table 2 declares."""
+    text = (ROOT / "examples/copter" / source).read_text(encoding="utf-8")
+    names = {"PERIOD_US": "period", "WCET_US": "budget", "PHASE_US": "phase"}
+    found = re.findall(r"^#define (\w+) +(\d+)u", text, re.MULTILINE)
+    return {names[name]: int(value) for name, value in found if name in names}
+
+
+def test_the_boards_set_is_the_copters_with_its_own_tasks(fmuv5: TaskSet, copter: TaskSet) -> None:
+    plain = [replace(task, label="", sigma=None) for task in (*copter.tasks, *fmuv5.tasks)]
+    table, own = plain[: len(copter.tasks)], plain[len(copter.tasks) :]
+    assert own[: len(table)] == table
+    assert [
+        (task.name, task.class_name, task.period, task.budget, task.phase)
+        for task in own[len(table) :]
+    ] == [
+        (name, "low", *(own_task(source)[key] for key in ("period", "budget", "phase")))
+        for name, source in (("Log", "log.c"), ("Telemetry", "telemetry.c"))
+    ]
+
+
+def test_the_boards_tasks_hold(fmuv5: TaskSet) -> None:
+    found = analyse(fmuv5)
+    assert found.schedulable
+    assert not found.collisions
+    assert {chain.name for chain in found.chains} == {
+        "IMU, rate",
+        "IMU, angle",
+        "Magnetometer",
+        "Radio",
+    }
+    for chain in found.chains:
+        assert chain.safe is not None
+        assert chain.safe <= chain.reaction_limit
+
+
+@pytest.mark.parametrize(("name", "phase"), [("Telemetry", 1900), ("Log", 2100)])
+def test_across_a_release_of_real_time_tasks_there_is_no_room(
+    fmuv5: TaskSet, name: str, phase: int
+) -> None:
+    """Background IMU is due at every millisecond."""
+    tasks = tuple(replace(task, phase=phase) if task.name == name else task for task in fmuv5.tasks)
+    assert analyse(replace(fmuv5, tasks=tasks)).collisions
+
+
 def promoted_us(task: Task) -> float:
     """How long a task may wait that no gap is long enough for: eq. 3."""
     return 15 * task.period / task.priority

@@ -94,7 +94,12 @@ typedef struct keel_rcc {
 #define RCC_APB2ENR_TIM9EN     BITS(16u, 1u)
 #define RCC_CSR_RESET          0x0E000000u
 #define RCC_CSR_RMVF           BITS(24u, 1u)
+#define RCC_CSR_BORRSTF        BITS(25u, 1u)
+#define RCC_CSR_PINRSTF        BITS(26u, 1u)
+#define RCC_CSR_PORRSTF        BITS(27u, 1u)
+#define RCC_CSR_SFTRSTF        BITS(28u, 1u)
 #define RCC_CSR_IWDGRSTF       BITS(29u, 1u)
+#define RCC_CSR_WWDGRSTF       BITS(30u, 1u)
 #define RCC_DCKCFGR1_RESET     0x00000000u
 #define RCC_DCKCFGR1_TIMPRE    BITS(24u, 1u)
 #define RCC_DCKCFGR2_RESET     0x00000000u

@@ -11,7 +11,6 @@
 #include "devices/fm25v02.h"
 #include "devices/ms5611.h"
 #include "stm32f767/flash_medium.h"
-#include "stm32f767/power.h"
 #include "stm32f767/pwm.h"
 #include "stm32f767/registers/dbgmcu.h"
 #include "stm32f767/registers/factory.h"
@@ -51,6 +50,8 @@
 #define CARD_CLOCK_HZ    48000000u
 #define CARD_LIMIT_HZ    16000000u  /* The processor moves the data: 512 bytes in 64 us. */
 #define DELAY_LOOKS      100000000u /* Far more than a delay takes, but not for ever. */
+#define EXCEPTION_NMI    2u         /* Of the clock that is lost. */
+#define CLOCK_FAULTS     0xFFu      /* In KEEL_FAULT_CLOCK, the keel_clock_fault_t. */
 
 #define GPIO_CLOCKS                                                                                \
     (RCC_AHB1ENR_GPIOAEN | RCC_AHB1ENR_GPIOBEN | RCC_AHB1ENR_GPIOCEN | RCC_AHB1ENR_GPIODEN |       \
@@ -212,12 +213,30 @@ static void start_outputs(uint32_t apb1_timer_hz, uint32_t apb2_timer_hz)
     }
 }
 
-/* Whether the watchdog made this reset; the flags are cleared for the next. */
-static bool watchdog_reset(void)
+static keel_restart_t restart; /* Why it started. */
+
+/* As the flags tell it; they are cleared for the next reset. */
+static keel_restart_t read_restart(void)
 {
-    const bool found = (RCC->CSR & RCC_CSR_IWDGRSTF) != 0u;
+    const keel_restart_t found = keel_restart_of(RCC->CSR);
 
     RCC->CSR |= RCC_CSR_RMVF;
+    return found;
+}
+
+/* What a fault leaves is a reset that was asked for, and a record. */
+static keel_restart_t restart_by(const keel_fault_record_t *record)
+{
+    keel_restart_t found = KEEL_RESTART_FAULT;
+
+    if (record->code == KEEL_FAULT_WATCHDOG) {
+        found = KEEL_RESTART_WATCHDOG;
+    } else if ((record->number == EXCEPTION_NMI) ||
+               ((record->code & ~CLOCK_FAULTS) == KEEL_FAULT_CLOCK)) {
+        found = KEEL_RESTART_CLOCK;
+    } else {
+        /* Whatever else it was. */
+    }
     return found;
 }
 
@@ -231,8 +250,8 @@ static void freeze_with_the_core(void)
 
 static uint32_t core_mhz; /* What the core runs at since the start. */
 
-/* Without the oscillator the board still tells why, on the internal one; and the record is written
- * but once, or reset would follow reset. */
+/* Without the oscillator the board still tells why, on the internal one, but starts no application:
+ * no bus would have its rate. The record is written but once, or reset would follow reset. */
 void keel_board_start(void)
 {
     const keel_clock_registers_t registers = {RCC, PWR, FLASH};
@@ -242,12 +261,14 @@ void keel_board_start(void)
     const uint32_t core_hz = good ? KEEL_CORE_HZ : HSI_HZ;
     const uint32_t apb1 = good ? keel_bus_divisor(core_hz, KEEL_APB1_LIMIT_HZ) : 1u;
     const uint32_t apb2 = good ? keel_bus_divisor(core_hz, KEEL_APB2_LIMIT_HZ) : 1u;
-    const bool starved = watchdog_reset();
+    const keel_restart_t reset = read_restart();
     const keel_fault_record_t *const record = keel_fault_last();
     const bool told = (record != NULL) && (record->fresh == 1u);
 
     core_mhz = core_hz / MEGAHERTZ;
+    restart = told ? restart_by(record) : reset;
     if (!good) { /* The buses as the reset left them. */
+        keel_fault_allow_restart(false);
         keel_bits_put(&RCC->CFGR, RCC_CFGR_HPRE | RCC_CFGR_PPRE1 | RCC_CFGR_PPRE2, 0u);
     }
     start_levels();
@@ -261,7 +282,7 @@ void keel_board_start(void)
     if (!good && !told) {
         keel_fault_stop(KEEL_FAULT_CLOCK | (uint32_t)fault);
     }
-    if (starved && !told) {
+    if ((reset == KEEL_RESTART_WATCHDOG) && !told) {
         keel_fault_stop(KEEL_FAULT_WATCHDOG);
     }
 }
@@ -572,6 +593,11 @@ void keel_chip_uid(uint8_t uid[KEEL_CHIP_UID_BYTES])
         uid[i + 1u] = (uint8_t)(value >> 8);
     }
     close_factory();
+}
+
+keel_restart_t keel_chip_restart(void)
+{
+    return restart;
 }
 
 void keel_chip_reset(void)

@@ -17,6 +17,7 @@
 #include "stm32f767/capture.h"
 #include "stm32f767/clock_tree.h"
 #include "stm32f767/pin.h"
+#include "stm32f767/power.h"
 #include "stm32f767/pwm.h"
 #include "stm32f767/receiver.h"
 #include "stm32f767/registers/uart.h"
@@ -509,6 +510,10 @@ keel_bsp_status_t keel_chip_memory(keel_medium_t *medium, uint32_t *slot_bytes);
  * @param uid the number, its lowest byte first
  */
 void keel_chip_uid(uint8_t uid[KEEL_CHIP_UID_BYTES]);
+
+/** Why the chip started. After a fault for which the application was allowed another start
+ * (keel_fault_allow_restart) it is what the record tells. */
+keel_restart_t keel_chip_restart(void);
 
 /** Starts all anew, as a reset does, with the outputs off. */
 void keel_chip_reset(void) __attribute__((noreturn));

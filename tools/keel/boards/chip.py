@@ -96,6 +96,15 @@ SENSORS = ("sensor", "other-sensor", "second-sensor", "third-sensor")
 BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", "magnetometer", *SENSORS)
 
 
+# What RCC_CSR tells of a reset (RM0410, 5.3.21); each pulls the reset pin, too.
+BOR, PIN, POR, SOFTWARE, WATCHDOG = (1 << bit for bit in range(25, 30))
+REMOVE_FLAGS = 1 << 24
+NMI, USAGE_FAULT = 2, 6
+# What may befall a board: what the exception is, or why it is reset. A clock that is lost is an
+# exception, and may be there again behind it, or not.
+EXCEPTIONS = {"fault": USAGE_FAULT, "clock": NMI, "clock for good": NMI}
+MISHAPS = {"brown-out": BOR | PIN, "pin": PIN, "watchdog": 0, **dict.fromkeys(EXCEPTIONS, 0)}
+
 # A card's slot: clock, command and data, by port and pin, and what switches its supply.
 CARD_PINS, CARD_POWER = ((2, 12), (3, 2), (2, 8), (2, 9), (2, 10), (2, 11)), (6, 7)
 
@@ -155,7 +164,12 @@ class Chip:
         self.keys: list[tuple[int, str]] = []  # When, and which.
         self.resets = 0
         self.reset_wanted = False
-        self.starved = False
+        self.cause = POR | BOR | PIN  # Of the reset.
+        self.flags = 0  # Those of resets, until the image clears them.
+        self.mishaps: list[tuple[int, str]] = []  # When, and which of MISHAPS.
+        self.raised = 0  # The exception that one of them is.
+        self.reset_us: list[int] = []  # When it was reset, …
+        self.begun_us: list[int] = []  # … and when the watchdog was started: all is ready.
         self.armed_us: list[tuple[int, bool]] = []
         self.outputs = Outputs(outputs)
         self.counts = dict(COUNTS)
@@ -217,11 +231,11 @@ class Chip:
 
     def reset(self) -> None:
         """The registers as a reset leaves them."""
-        flags = (1 << 29) if self.starved else (1 << 28) if self.resets else 0x0E00_0000
-        self.words = {**RESETS, RCC + 0x74: flags}
+        self.flags |= self.cause
+        self.words = {**RESETS, RCC + 0x74: self.flags}
         self.words[FLASHR + 0x14] = self.options
         self.reset_wanted = False
-        self.starved = False
+        self.is_fed = True  # By whoever tries to.
         self.exception = 0
         self.watchdog_us = 0  # Its time-out; 0: it does not run.
         self.fed_us = self.time_us
@@ -239,11 +253,26 @@ class Chip:
         """Time passes."""
         self.time_us += us
         if self.watchdog_us and self.time_us - self.fed_us > self.watchdog_us:
-            self.starved = True
-            self.reset_wanted = True
+            self._reset_by(WATCHDOG | PIN)
+        if self.mishaps and self.time_us >= self.mishaps[0][0]:
+            self._befall(self.mishaps.pop(0)[1])
         if self.outputs.due_us is not None and self.time_us >= self.outputs.due_us:
             self.outputs.advance(self.time_us, self.words)
             self.outputs.note(self.time_us, self.words, self.high, at_period=True)
+
+    def _reset_by(self, cause: int) -> None:
+        if not self.reset_wanted:
+            self.reset_us.append(self.time_us)
+        self.cause, self.reset_wanted = cause, True
+
+    def _befall(self, mishap: str) -> None:
+        if mishap == "watchdog":
+            self.is_fed = False
+        elif mishap in EXCEPTIONS:
+            self.raised = EXCEPTIONS[mishap]
+            self.broken = "hse" if mishap == "clock for good" else self.broken
+        else:
+            self._reset_by(MISHAPS[mishap])
 
     def level(self, pin: tuple[int, int]) -> State:
         """What a pin does that no timer has."""
@@ -368,7 +397,7 @@ class Chip:
                 self._check_switch(value)
             self.words[RCC + 8] = (value & ~0xC) | (value & 3) << 2
         elif offset == 0x74 and value & 1 << 24:
-            self.words[RCC + 0x74] = 0
+            self.words[RCC + 0x74] = self.flags = 0
 
     def _check_switch(self, value: int) -> None:
         """What must hold when the core changes to the PLL (RM0410, 3.3.2, 4.1.4 and 5.2)."""
@@ -444,7 +473,10 @@ class Chip:
         """A key starts it, feeds it, or lets its registers be written until the next one."""
         if offset in (4, 8) and self.words.get(IWDG) != 0x5555:
             raise ModelError("the watchdog's registers are written while they are locked")
-        if offset == 0 and (value == 0xCCCC or (value == 0xAAAA and self.watchdog_us)):
+        feeds = value == 0xAAAA and self.watchdog_us and self.is_fed
+        if offset == 0 and value == 0xCCCC:
+            self.begun_us.append(self.time_us)
+        if offset == 0 and (value == 0xCCCC or feeds):
             divisor = 4 << self.words.get(IWDG + 4, 0)
             self.watchdog_us = (self.words[IWDG + 8] + 1) * divisor * 1000 // 32
             self.fed_us = self.time_us
@@ -493,7 +525,7 @@ class Chip:
 
     def _scb(self, offset: int, value: int) -> None:
         if offset == 0xC and value >> 16 == 0x05FA and value & 4:
-            self.reset_wanted = True
+            self._reset_by(SOFTWARE | PIN)
 
     def _gpio(self, port: int, offset: int, value: int) -> None:
         if offset != 0x18:

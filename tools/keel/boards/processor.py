@@ -68,7 +68,9 @@ class Processor:
     def _read(self, _: object, offset: int, size: int, start: int) -> int:
         try:
             word = self.chip.read((start + offset) & ~3)
-            if self.chip.reset_wanted:
+            if self.chip.raised and not self.pending and not self.chip.exception:
+                self.pending, self.chip.raised = (self.chip.raised, 0, 0), 0
+            if self.chip.reset_wanted or self.pending:
                 self.uc.emu_stop()
             return word >> 8 * (offset & 3) & ((1 << 8 * size) - 1)
         except ModelError as error:

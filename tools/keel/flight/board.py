@@ -23,6 +23,7 @@ from keel.boards.built import read_built
 from keel.boards.dwarf import Place, Variables
 from keel.boards.elf import read_contents
 from keel.flight import library
+from keel.flight.board_tasks import BoardTask, BoardTasks
 from keel.flight.library import SIM, Copter, Key, Link
 from keel.install import Toolchain
 
@@ -138,7 +139,9 @@ class BoardCopter(Copter):
         told.path, told.address = path, image["address"]
         told.end_run = read_contents(tools, Path(image["elf"])).symbol("end_run").address
         told.places, told.place_count = table, len(places)
-        self._tell_tasks(told.queue, copter, variables.find(TASKS, "declaration"))
+        declaration = variables.find(TASKS, "declaration")
+        self._tell_tasks(told.queue, copter, declaration)
+        self._own_tasks = BoardTasks(copter.part("scheduler"), declaration)
         variables.close()
         if self._library.board_load(told):
             raise ToolError(f"{image['binary']}: its path is too long")
@@ -191,6 +194,10 @@ class BoardCopter(Copter):
     def number_at(self, place: Place) -> int:
         """A whole number of the image's memory."""
         return int(self._library.board_number(place.address, place.size))
+
+    def timed(self) -> list[BoardTask]:
+        """The image's tasks, with how long each took at most since power-up."""
+        return list(self._own_tasks.read(self._library.board_number))
 
     def hear(self, radio: str) -> None:
         """How the pilot's receiver sends."""

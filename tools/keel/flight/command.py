@@ -11,7 +11,8 @@ two files of `make generate NAME=schedule`.
 
 With --board the very image of a board flies, on a model of its chip and its devices: the same
 scenarios, the same judge, the same limits. Units there are as many as the board has; its slot is
-empty, so there is no log.
+empty, so there is no log. With --scenario a second table has each task's longest run beside its
+budget, and the report has them for every flight.
 
 Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
 not, 2 when it could not be flown.
@@ -159,6 +160,8 @@ def tell(outcomes: Sequence[Outcome], report: Path, one: bool) -> None:
     if one:
         for outcome in outcomes:
             console.print(tables.one_flight(outcome))
+            if outcome.tasks:
+                console.print(tables.task_times(outcome.tasks))
     else:
         console.print(tables.all_flights(outcomes))
     bad = tables.failures(outcomes)

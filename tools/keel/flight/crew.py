@@ -16,6 +16,7 @@ from typing import Any
 
 from keel.base.errors import ToolError
 from keel.flight import board, judge, plots
+from keel.flight.board_tasks import BoardTask
 from keel.flight.library import Copter
 from keel.flight.loop import Order, Trace, fly, state_names, without_faults
 
@@ -51,6 +52,7 @@ class Outcome:
     digest: str
     expects_failure: bool
     armed_s: float
+    tasks: Sequence[BoardTask] = ()  # Of a board's image, each with its longest run.
 
     @property
     def broken(self) -> list[judge.Finding]:
@@ -70,6 +72,7 @@ class Outcome:
             "sha256": self.digest,
             "measured": self.measured,
             "limits": [finding.as_json() for finding in self.findings],
+            **({"tasks": [task.as_json() for task in self.tasks]} if self.tasks else {}),
         }
 
 
@@ -84,6 +87,7 @@ def flown(job: Job) -> Outcome:
     """Make a flight, and the unbroken one that it is compared with."""
     copter, order = copter_of(job.library), job.order
     trace = fly(copter, order, job.log, job.trace)
+    tasks = copter.timed()
     unbroken: Trace | None = None
     if order.scenario.limits.without_fault_deg is not None:
         unbroken = fly(copter, without_faults(order))
@@ -102,6 +106,7 @@ def flown(job: Job) -> Outcome:
         trace.digest,
         order.scenario.expects_failure,
         trace.armed_s,
+        tasks,
     )
 
 

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 if TYPE_CHECKING:
+    from keel.flight.board_tasks import BoardTask
     from keel.flight.crew import Outcome
     from keel.flight.judge import Finding
 
@@ -71,6 +72,18 @@ def one_flight(outcome: Outcome) -> Table:
     for finding in outcome.findings:
         word = "[green]holds[/]" if finding.good else "[red]BROKEN[/]"
         table.add_row(finding.name, finding.value, finding.limit, word)
+    return table
+
+
+def task_times(tasks: Sequence[BoardTask]) -> Table:
+    """A row for each task of a board's image."""
+    table = Table(title="Tasks of the image, from power-on, in us", title_justify="left")
+    for heading in ("task", "period", "runs", "longest", "budget", ""):
+        table.add_column(heading, justify="left" if heading in ("task", "") else "right")
+    for task in tasks:
+        word = "[green]fits[/]" if task.fits else "[red]OVER[/]"
+        numbers = (task.period_us, task.runs, task.longest_us, task.budget_us)
+        table.add_row(task.name, *map(str, numbers), word)
     return table
 
 

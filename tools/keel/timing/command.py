@@ -39,6 +39,8 @@ BUILD = Path("build/timing")
 def run_analyze(options: argparse.Namespace) -> int:
     """Analyse a task set."""
     tasks = read(options.taskset)
+    if options.verdict:
+        return run_verdict(tasks)
     if options.synthesize:
         return run_synthesis(tasks)
     if options.phases:
@@ -55,6 +57,13 @@ def run_analyze(options: argparse.Namespace) -> int:
         print(f"advice: {advice}")
     for reason in analysis.reasons[1:]:
         print(f"also: {reason}")
+    print(verdict(analysis))
+    return 0 if analysis.schedulable else 1
+
+
+def run_verdict(tasks: TaskSet) -> int:
+    """Does a task set hold? In a line."""
+    analysis = analyse(tasks)
     print(verdict(analysis))
     return 0 if analysis.schedulable else 1
 
@@ -143,6 +152,7 @@ def arguments_parser() -> argparse.ArgumentParser:
     what = analyze.add_mutually_exclusive_group()
     what.add_argument("--synthesize", action="store_true", help="find periods from the limits")
     what.add_argument("--phases", action="store_true", help="find phases without collisions")
+    what.add_argument("--verdict", action="store_true", help="say in a line whether it holds")
     analyze.set_defaults(run=run_analyze)
     tables = commands.add_parser("table", help="write the C task table")
     tables.add_argument("taskset", type=Path)
