@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Debian mirrors: the one that the host uses, as its apt tells it, or those that a user names."""
+"""The Debian mirrors: the one that the host uses, as its apt tells it, or a user's choice."""
 
 from __future__ import annotations
 

@@ -205,7 +205,9 @@ class Wrapping:
             if (inside := [name for name in harness.replaces if _calls(name, text)])
         }
         self._inside = {name for inside in self.weak.values() for name in inside}
-        if hidden := [name for path in self.weak for name in self._inside if _is_hidden(name, path)]:
+        if hidden := [
+            name for path in self.weak for name in self._inside if _is_hidden(name, path)
+        ]:
             raise ProjectError(f"{harness.name}: no linker can replace {hidden[0]}")
         self._harness = harness
         self._types = drawn(texts)
@@ -280,7 +282,10 @@ class Wrapping:
         return "\n".join(
             [
                 *(f"#define {one} {name}_{one}" for one in sorted(self._types)),
-                *(f"#define {one}_stand_in {self._stand_in(one)}" for one in self._harness.replaces),
+                *(
+                    f"#define {one}_stand_in {self._stand_in(one)}"
+                    for one in self._harness.replaces
+                ),
                 f'#include "{path}"',
                 *self._functions(),
                 f"static const double keel_run_numbers[] = {{{numbers}}};",
