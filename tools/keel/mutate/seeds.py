@@ -20,7 +20,7 @@ from keel.engines.cbmc import COVER, Cbmc, blocks_of
 from keel.judge.harness import Harness, without_solver
 
 DRAWS = 1024  # of an execution: what is drawn after so many values is not known of it
-SECONDS = 100  # of processor time for one harness
+SECONDS = 400  # of processor time for one harness
 # One bit pattern of a slot's lowest byte: the value itself stands above it (mutant_run.c).
 LITERAL = 0xFF
 SLOT = (1 << 64) - 1
