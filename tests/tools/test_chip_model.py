@@ -33,6 +33,7 @@ from keel.install import Toolchain
 ROOT = Path(__file__).resolve().parents[2]
 
 IMU_SLOT = 10  # Of the background task of the inertial unit, in the order of table 2.
+LATER_S = {"cuav_v5": 0.15}  # What a third inertial unit takes at the start.
 
 
 class ImageTest(unittest.TestCase):
@@ -63,9 +64,13 @@ class ImageTest(unittest.TestCase):
         first_us: int = 160_000,
     ) -> Chip:
         """Run an image; keys come a millisecond apart from a time on, by which a board with one
-        inertial unit has started."""
+        inertial unit has started. A board that starts later has as much more time."""
+        later_s = LATER_S.get(board, 0.0)
+        first_us += round(1e6 * later_s)
         pressed = [(first_us + 1000 * i, key) for i, key in enumerate(keys)]
-        return chip_model.simulate(self.tools, self.root, board, seconds, pressed, broken, step_us)
+        return chip_model.simulate(
+            self.tools, self.root, board, seconds + later_s, pressed, broken, step_us
+        )
 
     def safe(self, board: Chip, *parts: str) -> None:
         self.assertRegex(board.text, "(?s)safe state: fault 1 .*outputs are off")
@@ -81,7 +86,7 @@ class ImageTest(unittest.TestCase):
             self.assertEqual(words[chip.NVIC + 0x180 + 4 * word], 0xFFFF_FFFF)
         self.assertEqual(words[chip.SCB + 4], 1 << 25 | 1 << 27)
 
-    def test_both_boards_start_and_read_their_sensor(self) -> None:
+    def test_all_boards_start_and_read_their_sensor(self) -> None:
         for name in WIRINGS:
             board = self.run_image(board=name)
             self.assertIn(f"Keel on {name}: 21 tasks\r\nsensor 1 status 0\r\n", board.text)

@@ -56,7 +56,7 @@ from keel.test.suites import Suite
 
 BUILD = Path("build/test")
 SUITE_TIMEOUT_S = 120
-PYTEST_TIMEOUT_S = 300
+PYTEST_TIMEOUT_S = 600  # Of processor time: whole images run on the model of the chip.
 
 SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 WARNINGS = ["-Wall", "-Wextra", "-Werror", "-Wconversion"]
