@@ -12,14 +12,11 @@ import pytest
 from pyulog import ULog
 from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 from test_board_lines import ARM, FIX_MS, FRAME_MS, HEIGHT_M, PLACE, pymavlink, resting, run_built
-from test_copter_image import images, mistaken, reports, sources, tools
+from test_copter_image import images, reports, sources, tools
 
-from keel.boards import firmware
-from keel.boards.board import application_of, read_board
 from keel.boards.card import SdCard
-from keel.boards.chip import Chip, ModelError
+from keel.boards.chip import Chip
 from keel.boards.dma_uart import PLAIN, SBUS
-from keel.boards.processor import Processor
 from keel.boards.pulses import FLOATS, LOW, Pulse
 from keel.flight import device_frames
 from keel.install import Toolchain
@@ -157,58 +154,3 @@ def test_only_the_pilot_arms_it_again(tools: Toolchain, images: Path, pymavlink:
     # The switch is off for long enough, then on for 0.3 s, behind one frame at most.
     assert 300_000 <= again_us - 1000 * again_ms <= 350_000
     assert set(reasons_of(pymavlink, chip)) == {"watchdog"}
-
-
-# --- Mistakes that an engineer makes. ---
-
-START, FAULT, CHIP, PORT, MAIN = (
-    "bsp/cortex_m7/startup.c",
-    "bsp/cortex_m7/fault.c",
-    "bsp/stm32f767/target/chip.c",
-    "examples/copter_on_board/board_port.c",
-    "examples/copter_on_board/main.c",
-)
-MISTAKES = (
-    (START, "keel_fault_take() && !restarts", "keel_fault_take() && restarts"),
-    (START, "= keel_fault_take_restart();", "= keel_fault_take_restart() || true;"),
-    (FAULT, "allowed ? RESTARTS : 0u", "(allowed || true) ? RESTARTS : 0u"),
-    (FAULT, "keel_fault_allow_restart(false);", ""),
-    (CHIP, "restart = told ?", "restart = (told && !good) ?"),
-    (CHIP, "RCC->CSR |= RCC_CSR_RMVF;", ""),
-    (CHIP, "record->code == KEEL_FAULT_WATCHDOG", "record->code != KEEL_FAULT_WATCHDOG"),
-    (PORT, ".notice_count = board->notices,", ""),
-    (PORT, '{"watchdog", false, true}', '{"watchdog", true, true}'),
-    (MAIN, "keel_fault_allow_restart(true);", ""),
-)
-
-
-def bitten_then_faulty(tools: Toolchain, root: Path, made: firmware.Builder, mavlink: Any) -> None:
-    """A bite of the watchdog restarts it; a fault within the second behind that leaves it safe.
-    Then somebody resets it."""
-    board = read_board(root, "fmuv5")
-    parts = application_of(board, "copter").application
-    image = made.link("keel", [*made.objects(parts), *made.fatfs()])
-    chip = resting()
-    chip.mishaps = [(AT_US, "watchdog"), (AT_US + 900_000, "fault"), (AT_US + 1_100_000, "pin")]
-    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(3_000_000)
-    assert "start by: watchdog\r\nfault 1 " in chip.text
-    assert "safe state: fault 2 exception 6" in chip.text
-    assert chip.text.partition("safe state")[2].count("start by: reset pin\r\n") == 1
-    assert (chip.resets, len(chip.begun_us)) == (4, 2)
-    assert reasons_of(mavlink, chip) == ["watchdog"]
-
-
-def test_mistakes_in_the_restart_are_noticed(
-    tools: Toolchain, sources: Path, pymavlink: Any
-) -> None:
-    made = firmware.Builder(tools, read_board(sources, "fmuv5"), sources / "build/again", sources)
-    bitten_then_faulty(tools, sources, made, pymavlink)
-    unnoticed = []
-    for path, old, new in MISTAKES:
-        with mistaken(sources, made, path, old, new):
-            try:
-                bitten_then_faulty(tools, sources, made, pymavlink)
-                unnoticed.append((path, new))
-            except (AssertionError, ModelError):
-                pass
-    assert unnoticed == []
