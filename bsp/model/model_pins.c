@@ -2,7 +2,7 @@
 /* The outputs with the timers that make their pulses, and each edge of their pins.
  *
  * A timer's edges are worked out when something looks: behind each write to a timer, a port or a
- * clock, and at the end of a turn. What a register says holds from its write on. */
+ * clock, and at the end of a turn. A register counts from its write on. */
 #include "model.h"
 
 #include "stm32f767/registers/gpio.h"

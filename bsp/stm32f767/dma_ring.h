@@ -3,8 +3,8 @@
  * @file dma_ring.h
  * @brief A stream of DMA that moves what one register of a peripheral has round a ring in memory.
  *
- * What is in common to receiver.h and capture.h, whose requirements cover it. The ring must lie
- * where no cache is between, in DTCM.
+ * receiver.h and capture.h share it; their requirements cover it. The ring must lie where no cache
+ * is between, in DTCM.
  */
 #ifndef KEEL_BSP_STM32F767_DMA_RING_H
 #define KEEL_BSP_STM32F767_DMA_RING_H

@@ -12,8 +12,8 @@
  *
  * Behind a fault, a bite of the watchdog among them, it starts again, disarmed as after power-on,
  * and tells why. It never flies on: nobody could check an attitude from before, and motors would
- * start beside whoever stands at a fallen aircraft. What faults within the first second of its
- * run ends in the safe state of all images (bsp/cortex_m7/fault.h).
+ * start next to people at a fallen aircraft. A fault within the first second of its run ends in the
+ * safe state of all images (bsp/cortex_m7/fault.h).
  */
 #include "board.h"
 #include "board_port.h"

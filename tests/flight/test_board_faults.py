@@ -31,7 +31,7 @@ from keel.flight import command as fly
 from keel.flight.board import BoardCopter
 from keel.flight.faults import Faults
 from keel.flight.library import Copter
-from keel.flight.loop import Crashed, Flight, NotFlown, Order, Trace, state_names
+from keel.flight.loop import Flight, Order, Trace, state_names
 from keel.flight.pins import CAUSES, HIGH, NMI, RESET
 from keel.flight.power import Battery
 from keel.install import Toolchain
@@ -65,16 +65,7 @@ class Common(Flight):
     def go_on(self, found: scenario.Scenario, now_ms: int) -> Trace:
         self._scenario = self._pilot.scenario = found
         self._faults = Faults(found.fault, self._copter, self._battery, found.first_fix)
-        problem, crash = "", ""
-        try:
-            while not self._is_over(now_ms):
-                now_ms += 1
-                self.step(now_ms)
-        except NotFlown as error:
-            problem = str(error)
-        except Crashed as error:
-            crash = str(error)
-        return self._trace(problem, crash)
+        return self.fly_on(now_ms)
 
 
 def apart(work: Callable[[], Result]) -> Result:

@@ -5,22 +5,18 @@ switch, and the buzzer."""
 from __future__ import annotations
 
 import re
-import shutil
-import tempfile
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from own_program import builder_of, sources_with
 from test_copter_image import PINS, mistaken, tools
 
-from keel.base.errors import ROOT
 from keel.boards import firmware
-from keel.boards.board import read_board
 from keel.boards.chip import Chip, ModelError
 from keel.boards.processor import Processor
 from keel.boards.pulses import LOW, Pulse
-from keel.boards.rebuilt import SOURCES
 from keel.boards.wiring import WIRINGS
 from keel.install import Toolchain
 
@@ -90,17 +86,8 @@ STEP_US = 500
 
 @pytest.fixture(scope="module")
 def sources() -> Iterator[Path]:
-    with tempfile.TemporaryDirectory(prefix="keel-test-") as name:
-        root = Path(name)
-        for part in SOURCES:
-            shutil.copytree(ROOT / part, root / part)
-        (root / "examples/paneller").mkdir()
-        (root / "examples/paneller/main.c").write_text(PANELLER)
+    with sources_with("paneller", PANELLER) as root:
         yield root
-
-
-def builder_of(tools: Toolchain, root: Path, folder: str) -> firmware.Builder:
-    return firmware.Builder(tools, read_board(root, "fmuv5"), root / "build" / folder, root)
 
 
 def panel(tools: Toolchain, builder: firmware.Builder) -> Chip:

@@ -4,20 +4,16 @@
 from __future__ import annotations
 
 import re
-import shutil
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from own_program import builder_of, sources_with
 from test_copter_image import PINS, mistaken, tools
 
-from keel.base.errors import ROOT
 from keel.boards import firmware
-from keel.boards.board import read_board
 from keel.boards.chip import Chip, ModelError
 from keel.boards.processor import Processor
-from keel.boards.rebuilt import SOURCES
 from keel.boards.wiring import WIRINGS
 from keel.install import Toolchain
 
@@ -69,17 +65,8 @@ STEP_US = 40
 
 @pytest.fixture(scope="module")
 def sources() -> Iterator[Path]:
-    with tempfile.TemporaryDirectory(prefix="keel-test-") as name:
-        root = Path(name)
-        for part in SOURCES:
-            shutil.copytree(ROOT / part, root / part)
-        (root / "examples/edger").mkdir()
-        (root / "examples/edger/main.c").write_text(EDGER)
+    with sources_with("edger", EDGER) as root:
         yield root
-
-
-def builder_of(tools: Toolchain, root: Path, folder: str) -> firmware.Builder:
-    return firmware.Builder(tools, read_board(root, "fmuv5"), root / "build" / folder, root)
 
 
 def hear(tools: Toolchain, builder: firmware.Builder) -> Chip:

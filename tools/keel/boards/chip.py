@@ -100,8 +100,8 @@ BROKEN = ("hse", "pll", "overdrive", "adc", "memory", "barometer", "magnetometer
 BOR, PIN, POR, SOFTWARE, WATCHDOG = (1 << bit for bit in range(25, 30))
 REMOVE_FLAGS = 1 << 24
 NMI, USAGE_FAULT = 2, 6
-# What may befall a board: what the exception is, or why it is reset. A clock that is lost is an
-# exception, and may be there again behind it, or not.
+# Mishaps of a board: the exception, or the reset's cause. A clock that is lost is an exception, and
+# may be there again behind it, or not.
 EXCEPTIONS = {"fault": USAGE_FAULT, "clock": NMI, "clock for good": NMI}
 MISHAPS = {"brown-out": BOR | PIN, "pin": PIN, "watchdog": 0, **dict.fromkeys(EXCEPTIONS, 0)}
 

@@ -10,7 +10,7 @@ from keel.base.errors import ToolError, unknown
 from keel.flight.library import NO_BOARD, Copter
 from keel.flight.plants import MOTORS, THRUST_POWER
 from keel.flight.power import Battery
-from keel.flight.scenario import BOARD_FAULTS, CHIP_FAULTS, Fault, FirstFix, Shaking
+from keel.flight.scenario import Fault, FirstFix, Shaking
 from keel.flight.sensors import Broken
 
 DRIFT_MOST = 3.0  # rad/s
@@ -38,7 +38,7 @@ class Faults:
 
     def __post_init__(self) -> None:
         for fault in self.faults:
-            if fault.kind in (*BOARD_FAULTS, *CHIP_FAULTS) and not self.copter.has_board:
+            if fault.is_of_board and not self.copter.has_board:
                 raise ToolError(NO_BOARD.format(fault.kind))
             if fault.task is not None and fault.task not in self.copter.tasks:
                 raise ToolError(unknown("task", fault.task, self.copter.tasks))
@@ -71,7 +71,7 @@ class Faults:
             "imu_silent": broken.silent,
             "imu_shout": broken.shouting,
         }
-        if fault.kind in (*BOARD_FAULTS, *CHIP_FAULTS):
+        if fault.is_of_board:
             self._break(fault, on)
         elif fault.kind in sets:
             (sets[fault.kind].add if on else sets[fault.kind].discard)(unit)

@@ -174,10 +174,13 @@ class Flight:
         self._done_before = copter.done()
 
     def fly(self) -> Trace:
-        """To its end."""
+        """From its begin to its end."""
+        return self.fly_on(0)
+
+    def fly_on(self, now_ms: int) -> Trace:
+        """From a time on to its end."""
         problem, crash = "", ""
         try:
-            now_ms = 0
             while not self._is_over(now_ms):
                 now_ms += 1
                 self.step(now_ms)

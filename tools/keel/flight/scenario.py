@@ -194,6 +194,11 @@ class Fault(Table):
     clocks: Annotated[int, Field(ge=1, le=100)] | None = None  # After which SDA is let go.
     saved_bytes: Annotated[int, Field(ge=1, le=32768)] | None = None  # Into the FRAM, before it.
 
+    @property
+    def is_of_board(self) -> bool:
+        """Whether only the model of a board has it."""
+        return self.kind in (*BOARD_FAULTS, *CHIP_FAULTS)
+
 
 class Options(Table):
     """How the copter is built for the flight."""
@@ -386,8 +391,7 @@ def limit_mistakes(scenario: Scenario) -> Iterator[Mistake]:
 
 def of_board(scenario: Scenario) -> list[str]:
     """The kinds of its faults that only the model of a board has."""
-    known = (*BOARD_FAULTS, *CHIP_FAULTS)
-    return [fault.kind for fault in scenario.fault if fault.kind in known]
+    return [fault.kind for fault in scenario.fault if fault.is_of_board]
 
 
 def names(folder: Path = FOLDER) -> list[str]:
