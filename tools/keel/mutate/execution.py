@@ -307,6 +307,7 @@ class Wrapping:
                 "#define KEEL_RUN_REPLAY",
                 "#include <stdint.h>",
                 f"static const uint64_t keel_run_values[] = {{{table}}};",
+                "#define KEEL_RUN_VALUE(place) keel_run_values[place]",
                 f'#include "{RUNTIME[1]}"',
                 f'#include "{path}"',
                 *self._functions(),

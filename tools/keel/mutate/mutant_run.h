@@ -16,18 +16,26 @@
 
 #ifdef KEEL_RUN_REPLAY
 
-/* keel_run_values stands before this header is included. */
+/* KEEL_RUN_VALUE, which gives the value of a place, stands before this header is included. */
 static uint32_t keel_run_place;
+
+static uint64_t keel_run_next(void)
+{
+    const uint32_t place = keel_run_place;
+
+    keel_run_place = place + 1u;
+    return KEEL_RUN_VALUE(place);
+}
 
 static uint64_t keel_run_int(size_t size)
 {
     (void)size;
-    return keel_run_values[keel_run_place++];
+    return keel_run_next();
 }
 
 static bool keel_run_bool(void)
 {
-    return keel_run_values[keel_run_place++] != 0u;
+    return keel_run_next() != 0u;
 }
 
 static float keel_run_float(void)
@@ -37,7 +45,7 @@ static float keel_run_float(void)
         float value;
     } both;
 
-    both.bits = (uint32_t)keel_run_values[keel_run_place++];
+    both.bits = (uint32_t)keel_run_next();
     return both.value;
 }
 
