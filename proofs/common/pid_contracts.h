@@ -56,9 +56,15 @@ static bool keel_pid_step_may(const keel_pid_t *pid)
     return pid_valid_here(pid);
 }
 
-static bool keel_pid_step_does(keel_status_t status, const keel_pid_t *pid)
+static bool keel_pid_step_does(keel_status_t status, const keel_pid_t *pid,
+                               const keel_pid_t *before, float setpoint, float measurement)
 {
-    return pid_valid_here(pid) && ((status == KEEL_OK) || (status == KEEL_ERR_INPUT));
+    const bool stepped = (status == KEEL_OK) && pid->started &&
+                         float_same(pid->setpoint, setpoint) && pid_input_here(setpoint) &&
+                         pid_input_here(measurement);
+    const bool refused = (status == KEEL_ERR_INPUT) && pid_same(pid, before);
+
+    return pid_valid_here(pid) && pid_made_as_before(pid, before) && (stepped || refused);
 }
 
 static bool keel_pid_step_within_may(const keel_pid_t *pid)

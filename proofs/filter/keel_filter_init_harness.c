@@ -6,7 +6,7 @@
 //
 // Any bit pattern for both frequencies: the same as the model's, bit for bit. The solver sees that
 // both compute the same only where nothing else is asked: overflow and NaN are checked in
-// keel_filter_init__valid_harness.
+// keel_filter_init__any_harness.
 #include "../../specs/model/filter.h"
 #include "../common/keel_flight_proof.h"
 

@@ -6,7 +6,7 @@
 //
 // Any filter at all, any bit pattern: the same as the model's step, bit for bit. The solver sees
 // that both compute the same only where nothing else is asked: overflow and NaN are checked in
-// keel_filter_step__valid_harness.
+// keel_filter_step__any_harness.
 #include "../../specs/model/filter.h"
 #include "../common/keel_flight_proof.h"
 

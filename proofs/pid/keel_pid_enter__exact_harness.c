@@ -12,12 +12,12 @@
 
 static int any_small(void)
 {
-    return (int)(nondet_u8() & 3u) - 2;
+    return ((int)(nondet_u8() & 1u) * 3) - 2;
 }
 
 static int any_gain(void)
 {
-    return (int)(nondet_u8() & 3u);
+    return (int)(nondet_u8() & 1u) * 2;
 }
 
 static int limited(int value, int least, int greatest)

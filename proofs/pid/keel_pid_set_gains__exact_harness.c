@@ -10,7 +10,12 @@
 
 static int any_small(void)
 {
-    return (int)(nondet_u8() & 3u) - 1;
+    return ((int)(nondet_u8() & 1u) * 3) - 1;
+}
+
+static int any_gain(void)
+{
+    return ((int)(nondet_u8() & 1u) * 2) + 1;
 }
 
 static int limited(int value, int least, int greatest)
@@ -20,13 +25,13 @@ static int limited(int value, int least, int greatest)
 
 void keel_pid_set_gains__exact_harness(void)
 {
-    const int kp = any_small() + 1;
-    const int kd = any_small() + 1;
-    const int kff = any_small() + 1;
+    const int kp = any_gain();
+    const int kd = any_gain();
+    const int kff = any_gain();
     const int new_kp = any_small(); /* -1 is refused */
-    const int new_ki = any_small() + 1;
-    const int new_kd = any_small() + 1;
-    const int new_kff = any_small() + 1;
+    const int new_ki = any_gain();
+    const int new_kd = any_gain();
+    const int new_kff = any_gain();
     const int setpoint = any_small();
     const int error = any_small();
     const int derivative = any_small();

@@ -7,7 +7,7 @@
 //
 // Any controller at all, any bit pattern for both inputs: the same as the model's, bit for bit. The
 // solver sees that both compute the same only where nothing else is asked: overflow and NaN are
-// checked in keel_pid_step__valid_harness.
+// checked in keel_pid_step__any_harness.
 #include "../../specs/model/pid.h"
 #include "pid_proof.h"
 

@@ -23,7 +23,7 @@ keel_status_t model_pid_step(keel_pid_t *pid, float setpoint, float measurement)
     asked_setpoint = setpoint;
     asked_measurement = measurement;
     *pid = stepped;
-    __CPROVER_assume(keel_pid_step_does(taken, pid));
+    __CPROVER_assume(keel_pid_step_does(taken, pid, &before, setpoint, measurement));
     return taken;
 }
 
@@ -34,7 +34,7 @@ keel_status_t keel_pid_step_stand_in(keel_pid_t *pid, float setpoint, float meas
                          float_same(measurement, asked_measurement),
                      "PID_012_asked: the controller as it is, and its inputs");
     *pid = stepped;
-    __CPROVER_assume(keel_pid_step_does(taken, pid));
+    __CPROVER_assume(keel_pid_step_does(taken, pid, &before, setpoint, measurement));
     return taken;
 }
 

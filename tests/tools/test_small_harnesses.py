@@ -109,6 +109,18 @@ class Kills(TreeTest):
         self.assertEqual(self.kill(answer("BOX_001", complete=False), answer()), "")
         self.assertEqual(self.kill(answer("unwinding assertion loop 0"), answer()), "")
 
+    def test_who_never_answers_is_asked_three_times(self) -> None:
+        harness = read_harness(self.unit, self.unit.folder / "keel_box_put_harness.c")
+        silent: Any = Checker(answer(complete=False))
+        killing: Any = Checker(answer("BOX_001"))
+        unchanged: Any = Checker(answer())
+        for before, asked in ([], 3), ([killing], 5):
+            made = Small({harness.name: []}, lambda: unchanged)
+            silent.asked = 0
+            for checker in [*before, *[silent] * 5]:
+                made.kills(harness, "keel_box_put", checker, self.root)
+            self.assertEqual(silent.asked, asked)
+
     def test_who_killed_most_is_asked_first(self) -> None:
         harness = read_harness(self.unit, self.unit.folder / "keel_box_put_harness.c")
         checker: Any = Checker(answer("BOX_001"))

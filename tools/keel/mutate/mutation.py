@@ -36,6 +36,7 @@ PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}
 PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
 IMPATIENT = 20.0
+ENDED = 60.0  # where executions did not end: WP sees a loop that goes on for ever, and soon
 UNTIMED = 60.0  # what a harness counts for whose time nobody knows
 LAST_PATIENCE = 4.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
@@ -394,7 +395,8 @@ class Trial:
         harness = self._executions and self._executions.ended.get(verdict.mutant.identity)
         if not harness:
             return False
-        killed, _ = self._by_harness(harness, unit, runner, self._limit(harness))
+        limit = min(ENDED, self._limit(harness))
+        killed, _ = self._by_harness(harness, unit, runner, limit)
         if not killed:
             return False
         verdict.engines["cbmc"] = killed

@@ -30,6 +30,8 @@ TIME = 20.0  # seconds of processor time, for a question that is meant to be eas
 WALL = 6.0
 # Seconds for the unchanged code, once: where small is no easier, asking is not worth it.
 PATIENT = 240.0
+# After so many questions without an answer, and none that killed, a harness is not asked any more.
+UNANSWERED = 3
 
 
 def small(harness: Harness, files: Iterable[Path]) -> Harness:
@@ -91,6 +93,8 @@ class Small:
         self._unchanged = unchanged
         self._usable: dict[str, bool] = {}
         self._kills: Counter[tuple[str, str]] = Counter()
+        self._killing: set[str] = set()
+        self._unanswered: Counter[str] = Counter()
         self._lock = threading.Lock()
 
     def ranked(self, function: str, harnesses: Sequence[Harness]) -> list[Harness]:
@@ -103,16 +107,22 @@ class Small:
 
     def kills(self, original: Harness, function: str, checker: Cbmc, root: Path) -> str:
         """What the small harness says against a mutant of a function in a tree; or nothing."""
-        if self._usable.get(original.name) is False:
+        if self._usable.get(original.name) is False or self._is_hopeless(original.name):
             return ""
         harness = small(in_tree(original, root), self._files[original.name])
         failure = _failure(checker, replace(harness, timeout=WALL * harness.timeout))
+        self._unanswered[original.name] += failure is None
         if not failure or not self._passes_unchanged(original):
             return ""
         self._kills[function, original.name] += 1
+        self._killing.add(original.name)
         others = [word[2:] for word in harness.defines if word not in original.defines]
         sizes = f" ({', '.join(others)})" if others else ""
         return f"killed: {original.name}: {failure}{sizes}"
+
+    def _is_hopeless(self, name: str) -> bool:
+        """Whether a small harness gave no answer so far, as often as it was asked."""
+        return name not in self._killing and self._unanswered[name] >= UNANSWERED
 
     def _passes_unchanged(self, original: Harness) -> bool:
         """Whether the small harness finds nothing in what is unchanged, in a time that pays."""
