@@ -520,6 +520,13 @@ class Extent(DeterminedTest):
                 self.put((plain, plain.replace("nondet_u32", "any_more")))
                 self.assertEqual(self.bounds(), [bound])
 
+    def test_one_of_two_constants_that_a_helper_gives_is_a_bound(self) -> None:
+        helper = "static uint32_t any_more(void)\n{\n    return nondet_bool() ? 1u : MANY;\n}\n"
+        self.write("proofs/common/same_box.h", f"{SAME}#define MANY 9u\n{helper}")
+        plain = "nondet_u32();\n    const uint32_t x"
+        self.put((plain, plain.replace("nondet_u32", "any_more")))
+        self.assertEqual(self.bounds(), ["return nondet_bool() ? 1u : 9 in any_more"])
+
     def test_a_stand_in_is_looked_into_and_must_be_shown_to_keep_its_contract(self) -> None:
         self.write(
             "proofs/common/same_box.h",

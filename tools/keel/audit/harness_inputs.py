@@ -333,6 +333,9 @@ class _Scene:
             part = left.type in ("field_expression", "subscript_expression")
             if (part and not stands_in and self._is_constant(right, own)) or self._is_one_of(right):
                 yield f"{written(left)} = {written(right)}"
+        for node in [] if own else syntax.found(one.tree, "return_statement"):
+            if any(self._is_one_of(value) for value in node.named_children):
+                yield written(node).rstrip(";")
 
     def _is_constant(self, node: Node, own: bool) -> bool:
         names = [written(name) for name in syntax.found(node, "identifier")]
