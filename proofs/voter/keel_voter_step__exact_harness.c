@@ -7,8 +7,11 @@
 // covers: keel_voter_agreement keel_voter_weight keel_voter_combine
 //
 // Eq. 16 to 18 in numbers: a = 1, n = 3, two or three sensors of which each may be absent, samples
-// in halves from -4 to 3.5. Agreements are then quarters, weights eighths, and all sums exact.
+// among eight halves from -4 to 2.5. Agreements are then quarters, weights eighths, and all sums exact.
 #include "voter_stand_ins.h"
+
+/* With all distances up to 7, and three of which each two are 6 or more apart. */
+static const uint32_t halves[8] = {0u, 2u, 3u, 5u, 6u, 7u, 12u, 13u};
 
 /* The agreement of two samples, given in halves, in quarters. */
 static uint32_t quarters(uint32_t x, uint32_t y)
@@ -46,7 +49,7 @@ void keel_voter_step__exact_harness(void)
     voter.config.highest = 4.0f;
     voter.config.stale_count = 0u;
     for (uint32_t i = 0u; i < SENSORS; i++) {
-        half[i] = nondet_u8() & 15u;
+        half[i] = halves[nondet_u8() & 7u];
         sample[i].value = 0.5f * ((float)half[i] - 8.0f);
         sample[i].age_us = 0u;
         sample[i].present = nondet_bool();
