@@ -49,8 +49,7 @@ static bool keel_filter_reset_does(keel_status_t status, const keel_filter_t *fi
                        float_same(filter->output, value);
     const bool refused = (status == KEEL_ERR_INPUT) && filter_same(filter, before);
 
-    return filter_valid_here(filter) && filter_made_as_before(filter, before) &&
-           (reset || refused);
+    return filter_valid_here(filter) && filter_made_as_before(filter, before) && (reset || refused);
 }
 
 static bool keel_filter_step_may(const keel_filter_t *filter)

@@ -25,8 +25,7 @@ void keel_filter_step__any_harness(void)
                      "FLT_005_any: what stands in for it elsewhere");
     __CPROVER_assert((status == KEEL_OK) || (status == KEEL_ERR_INPUT),
                      "FLT_005_status: taken or refused");
-    __CPROVER_assert(filter_valid_here(&filter),
-                     "FLT_005_bounded: states and output in bounds");
+    __CPROVER_assert(filter_valid_here(&filter), "FLT_005_bounded: states and output in bounds");
     __CPROVER_assert((status != KEEL_OK) || filter_input_here(input),
                      "FLT_006_input: what is taken is in range");
     __CPROVER_assert((status == KEEL_OK) || unchanged(&filter, &before, sizeof(filter)),

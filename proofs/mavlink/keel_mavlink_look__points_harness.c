@@ -28,20 +28,13 @@ typedef struct {
 #define POINTS 14u
 
 static const point_t point[POINTS] = {
-    {255u, 1u, 255u, 256u, 280u, true, true},
-    {255u, 0u, 70u, 256u, 280u, true, true},
-    {200u, 1u, 3u, 200u, 280u, true, true},
-    {64u, 0u, 64u, 65u, 280u, true, true},
-    {65u, 1u, 65u, 256u, 280u, true, true},
-    {63u, 0u, 63u, 64u, 280u, true, true},
-    {255u, 0u, 255u, 256u, 280u, true, false},
-    {100u, 1u, 9u, 20u, 280u, true, false},
-    {255u, 1u, 255u, 256u, 280u, false, false},
-    {80u, 0u, 130u, 131u, 280u, false, false},
-    {80u, 0u, 130u, 130u, 280u, false, false},
-    {9u, 1u, 256u, 256u, 280u, false, false},
-    {30u, 2u, 5u, 256u, 280u, false, false},
-    {1u, 0u, 71u, 90u, 9u, false, false},
+    {255u, 1u, 255u, 256u, 280u, true, true},   {255u, 0u, 70u, 256u, 280u, true, true},
+    {200u, 1u, 3u, 200u, 280u, true, true},     {64u, 0u, 64u, 65u, 280u, true, true},
+    {65u, 1u, 65u, 256u, 280u, true, true},     {63u, 0u, 63u, 64u, 280u, true, true},
+    {255u, 0u, 255u, 256u, 280u, true, false},  {100u, 1u, 9u, 20u, 280u, true, false},
+    {255u, 1u, 255u, 256u, 280u, false, false}, {80u, 0u, 130u, 131u, 280u, false, false},
+    {80u, 0u, 130u, 130u, 280u, false, false},  {9u, 1u, 256u, 256u, 280u, false, false},
+    {30u, 2u, 5u, 256u, 280u, false, false},    {1u, 0u, 71u, 90u, 9u, false, false},
 };
 
 static void choose_table(void)

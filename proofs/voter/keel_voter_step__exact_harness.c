@@ -7,7 +7,8 @@
 // covers: keel_voter_agreement keel_voter_weight keel_voter_combine
 //
 // Eq. 16 to 18 in numbers: a = 1, n = 3, two or three sensors of which each may be absent, samples
-// among eight halves from -4 to 2.5. Agreements are then quarters, weights eighths, and all sums exact.
+// among eight halves from -4 to 2.5. Agreements are then quarters, weights eighths, and all sums
+// exact.
 #include "voter_stand_ins.h"
 
 /* With all distances up to 7, and three of which each two are 6 or more apart. */

@@ -20,8 +20,8 @@ from keel.engines.cbmc import COVER, Cbmc, blocks_of
 from keel.judge.harness import Harness, without_solver
 
 DRAWS = 2048  # of an execution: what is drawn after so many values is not known of it
-# A solver gives 0 for each bit that does not matter to it, and an input of zeros tells little. It is
-# asked for the difference from these numbers; of 16 bits, which as floats lie beside 0.
+# A solver gives 0 for each bit that does not matter to it, and an input of zeros tells little. So
+# it is asked for the difference from these numbers: of 16 bits, which as floats lie beside 0.
 USUAL = tuple(n * 0x9E3779B1 >> 8 & 0xFFFF for n in range(1, DRAWS + 1))
 SECONDS = 400  # of processor time for one harness
 # One bit pattern of a slot's lowest byte: the value itself stands above it (mutant_run.c).
