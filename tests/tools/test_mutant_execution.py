@@ -29,7 +29,7 @@ from keel.mutate.execution import Executions, Kill, Sample, numbers_in
 from keel.mutate.harnesses import survey
 from keel.mutate.mutation import BY_CBMC, BY_WP, Tools, Trial
 from keel.mutate.operators import Mutant
-from keel.mutate.seeds import inputs_in
+from keel.mutate.seeds import DRAWS, USUAL, inputs_in
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import EXECUTED, Verdict, table
 from keel.prove.times import Times
@@ -289,10 +289,14 @@ __CPROVER_assume(part.n == 200u);""",
 
 
 def answered(values: list[int]) -> str:
-    """What CBMC 6.6.0 prints of a test that it found; of the fields, those that are read."""
+    """What CBMC 6.6.0 prints of a test that it found; of the fields, those that are read.
+
+    The values are the first ones drawn. Behind them it leaves all as it is usual.
+    """
+    told = [value ^ usual for value, usual in zip(values, USUAL, strict=False)]
     elements = [
         {"index": place, "value": {"binary": f"{value:064b}", "width": 64}}
-        for place, value in enumerate(values)
+        for place, value in enumerate([*told, *[0] * (DRAWS - len(told))])
     ]
     table_ = {"members": [{"name": "value", "value": {"elements": elements}}]}
     test = {"coveredGoals": ["f.coverage.1"], "inputs": [{"id": "keel_run_seed", "value": table_}]}
@@ -304,9 +308,13 @@ class Seeding(unittest.TestCase):
 
     def test_each_value_stands_in_a_slot_behind_the_first(self) -> None:
         [found] = inputs_in(answered([7, 0xFEDCBA9876543210]))
-        slots = [int.from_bytes(found[place : place + 8], "little") for place in (0, 8, 16)]
-        self.assertEqual(slots, [0xFF, 0x7FF, 0xDCBA9876543210FF])
-        self.assertEqual(len(found), 24)
+        slots = [int.from_bytes(found[place : place + 8], "little") for place in (0, 8, 16, 24)]
+        self.assertEqual(slots, [0xFF, 0x7FF, 0xDCBA9876543210FF, USUAL[2] << 8 | 0xFF])
+        self.assertEqual(len(found), 8 * (1 + DRAWS))
+
+    def test_what_does_not_matter_is_not_zero_and_differs(self) -> None:
+        self.assertGreater(len(set(USUAL)), DRAWS // 2)
+        self.assertLess(USUAL.count(0), 3)
 
     def test_an_answer_that_breaks_off_says_nothing(self) -> None:
         whole = answered([7])
