@@ -6,10 +6,10 @@
 // covers: keel_mavlink_look id_in checksum_in end_of whole_frame place_of checksum_of
 // covers: read_header publish_payload publish_signature publish_frame end_frame
 //
-// Chosen frames of up to 255 bytes, and a table of 256 messages: the same as the model's, with what
-// is dropped. Faults
-// that only a long frame or a late message shows are refuted here; keel_mavlink_look_harness has
-// every frame of up to 32 bytes and every table of up to 4 messages.
+// Chosen payloads of up to 255 bytes, and a table of 256 messages: the same as the model's, with
+// the bytes that are dropped. Faults that only a long frame or a late message shows are refuted
+// here; keel_mavlink_look_harness has every payload of up to 32 bytes and every table of up to 4
+// messages.
 #include "mavlink_contracts.h"
 
 #define ASKED (10u + KEEL_MAVLINK_PAYLOAD_MAX)

@@ -93,7 +93,6 @@ class Small:
         self._unchanged = unchanged
         self._usable: dict[str, bool] = {}
         self._kills: Counter[tuple[str, str]] = Counter()
-        self._killing: set[str] = set()
         self._unanswered: Counter[str] = Counter()
         self._lock = threading.Lock()
 
@@ -115,14 +114,14 @@ class Small:
         if not failure or not self._passes_unchanged(original):
             return ""
         self._kills[function, original.name] += 1
-        self._killing.add(original.name)
         others = [word[2:] for word in harness.defines if word not in original.defines]
         sizes = f" ({', '.join(others)})" if others else ""
         return f"killed: {original.name}: {failure}{sizes}"
 
     def _is_hopeless(self, name: str) -> bool:
         """Whether a small harness gave no answer so far, as often as it was asked."""
-        return name not in self._killing and self._unanswered[name] >= UNANSWERED
+        killed = any(harness == name for _, harness in list(self._kills))
+        return not killed and self._unanswered[name] >= UNANSWERED
 
     def _passes_unchanged(self, original: Harness) -> bool:
         """Whether the small harness finds nothing in what is unchanged, in a time that pays."""
