@@ -36,6 +36,7 @@ PROVERS = {"Alt-Ergo": "alt-ergo", "CVC4": "cvc4", "Z3": "z3"}
 PATIENCE = 3.0
 SHORTEST, LONGEST = 2, 30
 IMPATIENT = 20.0
+CHOSEN = "__points_harness"  # Of chosen points: nothing is arbitrary there.
 ENDED = 60.0  # where executions did not end: WP sees a loop that goes on for ever, and soon
 UNTIMED = 60.0  # what a harness counts for whose time nobody knows
 LAST_PATIENCE = 4.0  # for the attempt after which a mutant is said to survive
@@ -390,18 +391,22 @@ class Trial:
     def _killed_where_it_ended(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
         """Ask the harness in which no execution came to its end; whether no engine need be asked.
 
-        It does what C leaves undefined, or goes on for ever: small harnesses look for neither.
+        It does what C leaves undefined, or goes on for ever: small harnesses look for neither. One
+        in which nothing is arbitrary needs no solver to see that a loop has no end.
         """
-        harness = self._executions and self._executions.ended.get(verdict.mutant.identity)
-        if not harness:
+        mutant = verdict.mutant
+        ended = self._executions and self._executions.ended.get(mutant.identity)
+        if not ended:
             return False
-        limit = min(ENDED, self._limit(harness))
-        killed, _ = self._by_harness(harness, unit, runner, limit)
-        if not killed:
-            return False
-        verdict.engines["cbmc"] = killed
-        verdict.status = "killed"
-        return not self._every
+        chosen = [one for one in self._ranked(mutant) if one.name.endswith(CHOSEN)]
+        for harness in (*chosen, ended):
+            limit = min(ENDED, self._limit(harness))
+            killed, _ = self._by_harness(harness, unit, runner, limit)
+            if killed:
+                verdict.engines["cbmc"] = killed
+                verdict.status = "killed"
+                return not self._every
+        return False
 
     def _killed_by_small(self, verdict: Verdict, unit: Unit, runner: Runner) -> bool:
         """Ask small harnesses; whether no other engine need be asked."""
