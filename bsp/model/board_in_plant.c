@@ -11,11 +11,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define HUNDRED 100u
-#define PIECE   64u
-#define NAME    4096u
-#define PLACES  128u
-#define UNITS   2u
+#define HUNDRED   100u
+#define PIECE     64u
+#define NAME      4096u
+#define PLACES    128u
+#define UNITS     2u
+#define SECTOR    512u
+#define CARD_UNIT (1024u * SECTOR)
+#define CARD_MOST 0x80000000u
 
 static board_image_t image; /* Its path and places are these: */
 static char path[NAME];
@@ -41,6 +44,15 @@ void board_pilot_sends(uint32_t baud, uint32_t even_parity, uint32_t two_stops, 
     const model_bits_t bits = {baud, even_parity != 0u, two_stops != 0u, inverted != 0u};
 
     model_pilot_sends(&bits);
+}
+
+int board_insert(uint8_t *bytes, uint32_t size)
+{
+    if (((size % CARD_UNIT) != 0u) || (size > CARD_MOST)) {
+        return 1;
+    }
+    model_card_insert((size > 0u) ? bytes : NULL, size / SECTOR);
+    return 0;
 }
 
 const char *board_problem(void)
@@ -120,6 +132,7 @@ int sim_start(const sim_options_t *options)
     model_buses_start();
     model_devices_start();
     model_lines_start();
+    model_card_start();
     model_watch(image.end_run);
     has_file = options->memory != NULL;
     if (has_file) {
@@ -167,7 +180,7 @@ int sim_set(const char *name, double value)
     return save(&store);
 }
 
-/* The slot is empty. */
+/* Its log is on its card. */
 int sim_log(const char *wanted)
 {
     return (wanted[0] != '\0') ? 1 : 0;
@@ -258,6 +271,10 @@ int board_break(uint32_t fault, uint32_t which, uint32_t amount, uint32_t on)
     case BOARD_RADIO_LINE_NOISE:
         break_line(fault, amount, on != 0u);
         return 0;
+    case BOARD_CARD_BUSY:
+        return model_card_stick(on != 0u) ? 0 : 1;
+    case BOARD_CARD_GONE:
+        return model_card_pull(on != 0u) ? 0 : 1;
     default:
         return break_chip(fault, which, amount);
     }

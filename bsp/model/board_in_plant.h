@@ -8,7 +8,8 @@
  * sim_tasks() show.
  *
  * Of the options of a flight the image decides itself: units, the votes' way, costs. There is one
- * link of telemetry, at the board's own rate and without a key; no log, and no console's answer.
+ * link of telemetry, at the board's own rate and without a key, and no console's answer. Its log is
+ * on the card that is in its slot, if there is one.
  */
 #ifndef BOARD_IN_PLANT_H
 #define BOARD_IN_PLANT_H
@@ -55,6 +56,11 @@ int board_load(const board_image_t *image);
 /** How the pilot's receiver sends its bytes of 8 bits; SBUS, unless it is told. */
 void board_pilot_sends(uint32_t baud, uint32_t even_parity, uint32_t two_stops, uint32_t inverted);
 
+/** Puts a card into the slot, with the content of these bytes, which the board reads and writes
+ * from now on; null takes it out.
+ * @return 0; 1: the size is no multiple of 512 KiB, up to 2 GiB */
+int board_insert(uint8_t *bytes, uint32_t size);
+
 /** Why the board cannot go on, or what an option is that it does not have; empty: nothing. */
 const char *board_problem(void);
 
@@ -69,6 +75,8 @@ typedef enum board_fault {
     BOARD_GPS_SILENT,       /**< The satellite receiver sends nothing. */
     BOARD_RADIO_UNPLUGGED,  /**< Nobody drives the line of the pilot's receiver. */
     BOARD_RADIO_LINE_NOISE, /**< Of `amount` in 1000 of its bytes something goes wrong. */
+    BOARD_CARD_BUSY,        /**< The card is busy with its last write, or the next one. */
+    BOARD_CARD_GONE,        /**< The card is pulled out. */
     BOARD_OSCILLATOR_LOST,  /**< The crystal stands still. */
     BOARD_TASK_HANGS,       /**< The next run of task `which`, from 0 on, does not end. */
     BOARD_CORE_STOPS,       /**< No instruction is executed any more, until a reset. */
@@ -81,7 +89,7 @@ typedef enum board_fault {
  * From the first fault on the board behaves as hardware does: exceptions are the image's, and a
  * watchdog that starves resets the chip. Before both end the flight, as what must not be.
  *
- * @return 0; 1: there is no such fault, unit or bus */
+ * @return 0; 1: there is no such fault, unit, bus or card */
 int board_break(uint32_t fault, uint32_t which, uint32_t amount, uint32_t on);
 
 /** A change of an output's pin, or what happens to the chip. */

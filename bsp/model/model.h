@@ -324,6 +324,31 @@ uint8_t *model_fram(void);
 bool model_fram_has_changed(void);
 /** @} */
 
+/** @name SDMMC 1, and the card in its slot. */
+/** @{ */
+
+/** Puts a card of high capacity into the slot, whose sectors are these bytes: a multiple of 1024
+ * sectors. Null takes it out. */
+void model_card_insert(uint8_t *bytes, uint32_t sectors);
+
+/** Power up: a card that was inserted is there, and works. */
+void model_card_start(void);
+
+/** As a reset of the chip leaves both: the card loses its supply. */
+void model_card_reset(void);
+
+/** The card is pulled out, or put there again.
+ * @return whether there is one */
+bool model_card_pull(bool is_out);
+
+/** From now on what the card programs does not come to its end, or does again.
+ * @return whether there is one */
+bool model_card_stick(bool is_stuck);
+
+uint32_t model_slot_read(uint32_t offset);
+void model_slot_write(uint32_t offset, uint32_t value);
+/** @} */
+
 /** @name UARTs, each with the stream of DMA that takes its bytes, and who sends. */
 /** @{ */
 

@@ -56,7 +56,6 @@
 #define LSI_KHZ   32u
 
 #define BYTE_TICKS (MODEL_TICKS_PER_US * 87u) /* Of the console, at 115200 baud. */
-#define ANSWER_US  160u                       /* A command's to a card that is not there. */
 #define CONVERT    12u                        /* Cycles beside those to sample. */
 
 typedef uint32_t (*model_reader_t)(uint32_t offset);
@@ -111,8 +110,6 @@ static uint32_t said;
 static bool converts;
 static uint64_t converted_at;
 static bool oscillator_lost;
-static bool commands; /* A command to a card waits for its answer, … */
-static uint64_t answered_at;
 
 /* --- Clocks and supplies: all become ready at once. --- */
 
@@ -402,7 +399,7 @@ static void write_adc(uint32_t offset, uint32_t value)
     }
 }
 
-/* --- The console, and a slot without a card. --- */
+/* --- The console. --- */
 
 static uint32_t read_console(uint32_t offset)
 {
@@ -433,31 +430,6 @@ const char *model_text(void)
 {
     text[said] = '\0';
     return text;
-}
-
-static uint32_t read_slot(uint32_t offset)
-{
-    if ((offset == offsetof(keel_sdmmc_t, STA)) && commands && model_wait(answered_at)) {
-        const uint32_t wants = *model_word(SDMMC1_BASE + offsetof(keel_sdmmc_t, CMD)) &
-                               SDMMC_CMD_WAITRESP;
-
-        commands = false;
-        *model_word(SDMMC1_BASE + offset) |= (wants == 0u) ? SDMMC_STA_CMDSENT : SDMMC_STA_CTIMEOUT;
-    }
-    return *model_word(SDMMC1_BASE + offset);
-}
-
-static void write_slot(uint32_t offset, uint32_t value)
-{
-    *model_word(SDMMC1_BASE + offset) = value;
-    if (offset == offsetof(keel_sdmmc_t, ICR)) {
-        *model_word(SDMMC1_BASE + offsetof(keel_sdmmc_t, STA)) &= ~value;
-    } else if ((offset == offsetof(keel_sdmmc_t, CMD)) && ((value & SDMMC_CMD_CPSMEN) != 0u)) {
-        commands = true;
-        answered_at = model_now() + ((uint64_t)ANSWER_US * MODEL_TICKS_PER_US);
-    } else {
-        /* It is kept. */
-    }
 }
 
 /* --- Each peripheral's registers. --- */
@@ -526,7 +498,7 @@ static const model_registers_t peripherals[] = {
     {UART7_BASE, sizeof(keel_uart_t), read_console, write_console},
     {RCC_BASE, sizeof(keel_rcc_t), NULL, write_rcc},
     {PWR_BASE, sizeof(keel_pwr_t), NULL, write_pwr},
-    {SDMMC1_BASE, sizeof(keel_sdmmc_t), read_slot, write_slot},
+    {SDMMC1_BASE, sizeof(keel_sdmmc_t), model_slot_read, model_slot_write},
     {TIM4_BASE, 0x54u, NULL, write_tim4},
     {TIM12_BASE, 0x54u, NULL, write_tim12},
     {TIM8_BASE, 0x68u, NULL, NULL},
@@ -679,7 +651,7 @@ void model_registers_reset(model_cause_t cause)
     looks = 0u;
     sleeps = false;
     converts = false;
-    commands = false;
+    model_card_reset();
     model_buses_reset();
     model_lines_reset();
     model_pins_reset();

@@ -102,7 +102,11 @@ static uint32_t declare(copter_t *copter, uint32_t row)
     uint32_t wcet_us = urpilot_task[row].wcet_us;
 
     *task = urpilot_task_config(row, copter_body, &copter->task[row]);
-    if (row == (uint32_t)URPILOT_BACKGROUND_RADIO) {
+    if (row == (uint32_t)URPILOT_SCHEDULER_ANALYSIS) {
+        task->budget_us += COPTER_ANALYSIS_WCET_US - wcet_us;
+        task->phase_us = COPTER_ANALYSIS_PHASE_US;
+        wcet_us = COPTER_ANALYSIS_WCET_US;
+    } else if (row == (uint32_t)URPILOT_BACKGROUND_RADIO) {
         task->budget_us += COPTER_RADIO_WCET_US - wcet_us;
         task->phase_us = COPTER_RADIO_PHASE_US;
         wcet_us = COPTER_RADIO_WCET_US;

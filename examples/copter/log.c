@@ -11,8 +11,8 @@
 #define PHASE_US  3500u
 
 #define ROUNDS_PER_S 100u
-#define DEFINITIONS  8u    /* In a run. */
-#define CHUNK        1536u /* Bytes in a run, and so 150 kB/s. */
+#define DEFINITIONS  4u    /* In a run. */
+#define CHUNK        1280u /* Bytes in a run, and so 125 kB/s: two runs of 100 move none. */
 
 static const keel_ulog_name_t system_name = {"sys_name"};
 static const char keel_name[] = "Keel";
@@ -271,26 +271,35 @@ static void log_parameter(copter_t *copter)
     }
 }
 
+/* From the ring to the port, as far as it has room. */
+static void move_bytes(copter_t *copter)
+{
+    const copter_port_t *const port = copter->port;
+    uint8_t chunk[CHUNK];
+    const uint32_t room = port->log_room(port->context);
+
+    port->write_log(port->context, chunk,
+                    keel_log_ring_read(&copter->log.ring, chunk, (room < CHUNK) ? room : CHUNK));
+}
+
+/* Once a second a run looks at the tasks, and the next one logs them: all would be too much for
+ * one. */
 static void copter_log_task(copter_t *copter)
 {
     copter_log_t *const log = &copter->log;
-    const copter_port_t *const port = copter->port;
-    uint8_t chunk[CHUNK];
-    uint32_t room;
 
     write_definitions(copter);
     if (log->samples) {
         log_parameter(copter);
     }
-    room = port->log_room(port->context);
-    port->write_log(port->context, chunk,
-                    keel_log_ring_read(&log->ring, chunk, (room < CHUNK) ? room : CHUNK));
-    if (log->rounds == 0u) {
-        log->rounds = ROUNDS_PER_S;
+    log->rounds = (log->rounds + 1u) % ROUNDS_PER_S;
+    if (log->rounds == 1u) {
         look_at_tasks(copter);
+    } else if (log->rounds == 2u) {
         copter_log_sample(copter, COPTER_LOG_ROW);
+    } else {
+        move_bytes(copter);
     }
-    log->rounds--;
 }
 
 keel_status_t copter_log_start(copter_t *copter)
@@ -303,5 +312,8 @@ keel_status_t copter_log_start(copter_t *copter)
                                    .phase_us = PHASE_US};
 
     keel_log_ring_init(&copter->log.ring);
+    for (uint32_t i = 0u; i < copter_topics; i++) { /* Topics of a task come in other runs of it. */
+        copter->log.left[i] = (uint16_t)(i % copter_topic[i].every);
+    }
     return copter_add(copter, &own);
 }

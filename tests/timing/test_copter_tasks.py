@@ -29,6 +29,10 @@ def copter() -> TaskSet:
     number = {name: int(value) for name, value in DEFINED.findall(text)}
     named = {name: value.lower().replace("_", "-") for name, value in CLASSED.findall(text)}
     rows = {
+        "Scheduler analysis": {
+            "budget": number["ANALYSIS_WCET_US"],
+            "phase": number["ANALYSIS_PHASE_US"],
+        },
         "Background radio": {"budget": number["RADIO_WCET_US"], "phase": number["RADIO_PHASE_US"]},
         "Foreground radio": {
             "phase": number["PILOT_PHASE_US"],

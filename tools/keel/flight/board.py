@@ -8,6 +8,7 @@ is told where the image has what the view shows: by the debugger's information, 
 from __future__ import annotations
 
 import json
+import mmap
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,13 +17,13 @@ import numpy as np
 
 from keel.base.build import Build
 from keel.base.errors import ROOT, ToolError, unknown
-from keel.base.files import write_json
+from keel.base.files import write_bytes, write_json
 from keel.boards import firmware
 from keel.boards.board import application_of, read_board
 from keel.boards.built import read_built
 from keel.boards.dwarf import Place, Variables
 from keel.boards.elf import read_contents
-from keel.flight import library
+from keel.flight import card, library
 from keel.flight.board_tasks import BoardTask, BoardTasks
 from keel.flight.library import SIM, Copter, Key, Link
 from keel.install import Toolchain
@@ -124,6 +125,8 @@ class BoardCopter(Copter):
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
+        self._card: mmap.mmap | None = None
+        self._log: Path | None = None
         image = json.loads((path.parent / IMAGE).read_text(encoding="utf-8"))
         self._load(image)
 
@@ -171,6 +174,22 @@ class BoardCopter(Copter):
 
     def _said(self, text: Any) -> str:
         return bytes(self._ffi.string(text)).decode("ascii", "replace").replace("\r", "")
+
+    def insert(self, content: mmap.mmap | None) -> None:
+        """Put a card into the slot, which the board reads and writes, or take it out."""
+        bytes_ = self._ffi.from_buffer("uint8_t[]", content or b"", require_writable=bool(content))
+        if self._library.board_insert(bytes_, len(content or b"")):
+            raise ToolError("a card has a multiple of 512 KiB")
+        self._card = content
+
+    def log(self, path: Path | None, trace: bool = False) -> None:
+        """Where the next flight's log goes, by way of a card; that of the last one is read."""
+        if trace:
+            raise ToolError("the image's log has no runs of tasks")
+        if self._log and self._card:
+            write_bytes(self._log, card.log_of(Toolchain(), self._card))
+        self._log = path
+        self.insert(card.new_card(Toolchain()) if path else None)
 
     def text(self) -> str:
         """What the board said on its console."""

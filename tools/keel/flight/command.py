@@ -10,9 +10,10 @@ flight's log, too, for `make log`; with --trace it has each run of each task, an
 two files of `make generate NAME=schedule`.
 
 With --board the very image of a board flies, on a model of its chip and its devices: the same
-scenarios, the same judge, the same limits. Units there are as many as the board has; its slot is
-empty, so there is no log. With --scenario a second table has each task's longest run beside its
-budget, and the report has them for every flight.
+scenarios, the same judge, the same limits. Units there are as many as the board has. A log is
+wanted as on the host; it comes from a card, without the last second, and without the runs of tasks.
+With --scenario a second table has each task's longest run beside its budget, and the report has
+them for every flight.
 
 Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
 not, 2 when it could not be flown.
@@ -77,8 +78,8 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     found = parser.parse_args(arguments)
     if found.seed is not None and (found.scenario or found.plant):
         raise ToolError("--seed: says scenario and plant by itself")
-    if found.board and (found.logs or found.trace):
-        raise ToolError("--board: its slot is empty, there is no log")
+    if found.board and found.trace:
+        raise ToolError("--trace: the log of an image has no runs of tasks")
     if found.jobs < 1:
         raise ToolError(f"--jobs: expected 1 or more, found {found.jobs}")
     return found
@@ -89,7 +90,7 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
     if options.seed is not None:
         name = report_name(options)
         picture = None if options.no_pictures else options.build / f"{name}.svg"
-        log = None if options.board else options.build / f"{name}.ulg"
+        log = options.build / f"{name}.ulg"
         return [Job(name, order_of(options.seed), copter, picture, log, options.trace)]
     known = scenario.names(options.scenarios)
     names = [options.scenario] if options.scenario else known
@@ -107,8 +108,7 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
             if options.plant in (None, plant):
                 made = f"{prefix(options)}{name}-{plant}"
                 picture = None if options.no_pictures else options.build / f"{made}.svg"
-                wanted = options.logs or options.scenario or options.trace
-                wanted = wanted and not options.board
+                wanted = options.logs or options.scenario or options.trace or found.needs_card
                 log = options.build / f"{made}.ulg" if wanted else None
                 jobs.append(
                     Job(name, Order(found, plant, found.seed), copter, picture, log, options.trace)

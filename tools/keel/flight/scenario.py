@@ -113,6 +113,8 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "gps_silent": (),
     "radio_unplugged": (),
     "radio_line_noise": ("share",),
+    "card_busy": (),
+    "card_gone": (),
     "oscillator_lost": (),
     "task_hangs": ("task",),
     "core_stops": (),
@@ -126,7 +128,10 @@ BOARD_FAULTS = (
     "gps_silent",
     "radio_unplugged",
     "radio_line_noise",
+    "card_busy",
+    "card_gone",
 )
+CARD_FAULTS = ("card_busy", "card_gone")
 CHIP_FAULTS = ("oscillator_lost", "task_hangs", "core_stops", "brown_out")
 # What it may have.
 OPTIONAL: dict[str, tuple[str, ...]] = {
@@ -162,6 +167,8 @@ FaultKind = Literal[
     "gps_silent",
     "radio_unplugged",
     "radio_line_noise",
+    "card_busy",
+    "card_gone",
     "oscillator_lost",
     "task_hangs",
     "core_stops",
@@ -336,6 +343,11 @@ class Scenario(Table):
     parameters: dict[Text, float] = {}  # Of the copter, as a ground station sets them; bool: 0, 1.
     limits: Limits = Limits()
     expects_failure: bool = False  # The limits must be broken: what is compared with is worse.
+
+    @property
+    def needs_card(self) -> bool:
+        """Whether a board flies it with a card in its slot."""
+        return any(fault.kind in CARD_FAULTS for fault in self.fault)
 
     @property
     def rises_m(self) -> float:
