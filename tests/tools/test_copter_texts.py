@@ -20,6 +20,7 @@ static copter_telemetry_t telemetry;
 static copter_port_t port;
 static uint32_t bytes_left;
 static bool safe;
+static bool held;
 static char text[COPTER_TEXT_LENGTH + 1u];
 static bool read_byte(void *context, uint32_t receiver, copter_byte_t *byte)
 {
@@ -42,6 +43,7 @@ int start(void)
     port = (copter_port_t){.read_byte = read_byte, .is_ready = is_ready_of_test};
     copter.port = &port;
     copter.telemetry = &telemetry;
+    copter.scheduler.clock.now_us = 7000000u; /* A card may take so long before. */
     copter_settings = copter_defaults;
     copter_settings.safety_switch = true;
     copter_settings.mode.required = KEEL_MODE_CHECK_BATTERY_LEVEL | COPTER_CHECK_GROUND_PRESSURE |
@@ -51,6 +53,7 @@ int start(void)
     copter.power.battery.level = KEEL_BATTERY_OK;
     copter.pilot.asked = KEEL_MODE_ANGLE;
     safe = false;
+    held = false;
     bytes_left = 0u;
     return (int)copter_state_machine_init(&copter.state) + (int)copter_gps_init(&copter.gps);
 }
@@ -65,7 +68,7 @@ void step(int links, int on, int throttle_low, int kill, int bytes)
     bytes_left = (uint32_t)bytes;
     copter_state_machine(&copter);
     copter_gps(&copter);
-    for (int i = 0; i < 5; i++) { copter_telemetry(&copter); }
+    for (int i = 0; (i < 5) && !held; i++) { copter_telemetry(&copter); }
 }
 void spoil(int battery, int pressure, int at_safe)
 {
@@ -74,6 +77,7 @@ void spoil(int battery, int pressure, int at_safe)
     copter.barometer.pressure_pa = pressure ? 50000.0f : 100000.0f;
     safe = at_safe != 0;
 }
+void hold_telemetry(int on) { held = on != 0; }
 void ask(void)
 {
     copter_action_request_arm(&copter.request, true);
@@ -102,7 +106,7 @@ const char *words_of(int is_check, int bit)
 int all_required(void) { return (int)copter_defaults.mode.required; }
 """
 
-DISARMED, ARMED, FLYING, TERMINATED = 0, 1, 2, 6
+DISARMED, ARMED, FLYING, LANDING, TERMINATED = 0, 1, 2, 5, 6
 A_SECOND = 50  # Steps.
 REFUSED = "not armed: "
 WARNING, INFO = 4, 6  # Of MAVLink's MAV_SEVERITY.
@@ -203,6 +207,29 @@ class CopterTexts(unittest.TestCase):
             self.run_for(1.0, on=on, low=False)
         self.assertEqual(self.new(REFUSED), [])
 
+    def test_HEA_007_a_switch_that_moves_while_it_lands_is_no_attempt(self) -> None:
+        """The battery makes it land, and would refuse; it disarms by itself. Whenever the switch
+        goes on around that, no text comes in a step that began with motors."""
+        told = 0
+        for early in range(25, 50):
+            self.setUp()
+            self.run_for(1.0, on=True)
+            self.copter.land(0)
+            self.run_for(1.0, on=True, low=False)
+            self.copter.spoil(1, 0, 0)
+            self.run_for(1.5)
+            self.assertEqual(self.copter.state(), LANDING)
+            self.copter.land(1)
+            self.new()
+            for step in range(80):
+                before = self.copter.state()
+                self.run_for(1 / A_SECOND, on=step >= early)
+                texts = self.new(REFUSED)
+                told += len(texts)
+                self.assertTrue(not texts or before == DISARMED, (early, step))
+            self.assertEqual(self.copter.state(), DISARMED)
+        self.assertGreater(told, 0)
+
     def test_HEA_007_whoever_asks_by_a_command_is_told_all_and_once(self) -> None:
         """His words are the switch's."""
         self.copter.spoil(0, 1, 0)
@@ -212,6 +239,21 @@ class CopterTexts(unittest.TestCase):
         self.assertEqual(self.new(REFUSED), [REFUSED + it for it in told])
         self.run_for(1.0, on=True, low=False)
         self.assertEqual(self.new(REFUSED), [REFUSED + told[0]])
+
+    def test_HEA_007_the_words_are_of_the_attempt_however_late_telemetry_runs(self) -> None:
+        """What was in the way has gone since, and something else has come."""
+        for asks in (False, True):
+            self.copter.hold_telemetry(1)
+            if asks:
+                self.copter.ask()
+            self.run_for(0.5, on=not asks, low=False)
+            self.copter.spoil(1, 0, 0)
+            self.run_for(0.5, on=not asks)
+            self.copter.hold_telemetry(0)
+            self.run_for(0.02, on=not asks)
+            self.assertEqual(self.new(REFUSED), [f"{REFUSED}throttle not low"])
+            self.copter.spoil(0, 0, 0)
+            self.run_for(1.0)
 
     def test_HEA_007_a_command_that_the_link_ends_is_not_told_an_older_reason(self) -> None:
         self.run_for(1.0, on=True, low=False)
