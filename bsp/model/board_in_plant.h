@@ -70,8 +70,9 @@ uint32_t board_number(uint32_t address, uint32_t size);
 #define BOARD_HAS_NO_MEMORY       16
 /** @} */
 
-/** What is not on the board, from the next power-up on; 0: all is there. Nobody answers in place of
- * it: the line of an SPI is as its pin is pulled, or noise, and an address on the I2C is refused. */
+/** What is not on the board, from the next power-up on; 0: all is there. Nobody answers in its
+ * place: the line of an SPI is as its pin is pulled, or noise, and an address on the I2C is
+ * refused. */
 void board_lack(uint32_t devices);
 
 /** What can break at the board. */

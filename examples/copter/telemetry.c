@@ -188,8 +188,8 @@ static bool is_expected(void)
             (KEEL_MODE_CHECK_POSITION_ESTIMATE | KEEL_MODE_CHECK_HOME_POSITION)) != 0u;
 }
 
-/* Says when the satellite receiver is silent, as often as the notices at most: again and again until
- * motors turn, and once for each silence from then on. And when it sends again. */
+/* Says when the satellite receiver is silent, as often as the notices at most: again and again
+ * until motors turn, and once for each silence from then on. And when it sends again. */
 static void tell_satellites(copter_telemetry_t *self, const copter_gps_t *gps, uint64_t now_us)
 {
     if (!gps->is_silent) {
