@@ -205,6 +205,22 @@ int sim_run_until(uint64_t time_us)
 
 /* --- What breaks. --- */
 
+void board_lack(uint32_t devices)
+{
+    static const uint32_t of[][2] = {
+        {BOARD_HAS_NO_IMU_1, 1u << MODEL_ICM20689},
+        {BOARD_HAS_NO_IMU_2, (1u << MODEL_GYROSCOPE) | (1u << MODEL_ACCELEROMETER)},
+        {BOARD_HAS_NO_BAROMETER, 1u << MODEL_MS5611},
+        {BOARD_HAS_NO_MAGNETOMETER, 1u << MODEL_IST8310},
+        {BOARD_HAS_NO_MEMORY, 1u << MODEL_FRAM}};
+    uint32_t left_out = 0u;
+
+    for (uint32_t i = 0u; i < (sizeof of / sizeof of[0]); i++) {
+        left_out |= ((devices & of[i][0]) != 0u) ? of[i][1] : 0u;
+    }
+    model_devices_leave_out(left_out);
+}
+
 static void break_line(uint32_t fault, uint32_t amount, bool on)
 {
     const model_disturbance_t disturbance = {

@@ -67,6 +67,20 @@ const char *board_problem(void);
 /** A number of up to 4 bytes in the image's memory; 0 where no memory is. */
 uint32_t board_number(uint32_t address, uint32_t size);
 
+/** @name Devices that a board may lack, a bit each. */
+/** @{ */
+#define BOARD_HAS_NO_IMU_1        1
+#define BOARD_HAS_NO_IMU_2        2
+#define BOARD_HAS_NO_BAROMETER    4
+#define BOARD_HAS_NO_MAGNETOMETER 8
+#define BOARD_HAS_NO_MEMORY       16
+/** @} */
+
+/** What is not on the board, from the next power-up on; 0: all is there. Nobody answers in its
+ * place: the line of an SPI is as its pin is pulled, or noise, and an address on the I2C is
+ * refused. */
+void board_lack(uint32_t devices);
+
 /** What can break at the board. */
 typedef enum board_fault {
     BOARD_IMU_UNPLUGGED,    /**< The inertial unit `which`, from 1 on: nobody drives its line. */

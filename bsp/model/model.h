@@ -274,7 +274,8 @@ typedef enum model_device {
     MODEL_ACCELEROMETER, /**< Of the BMI055. */
     MODEL_FRAM,
     MODEL_MS5611,
-    MODEL_DEVICES
+    MODEL_DEVICES,
+    MODEL_IST8310 = MODEL_DEVICES /**< At the I2C, behind all of these. */
 } model_device_t;
 
 /** Power up: all are silent, and there. */
@@ -286,8 +287,14 @@ void model_devices_power(void);
 /** An inertial unit, from 0 on, is taken off its bus, or put there again. */
 void model_unit_unplug(uint32_t unit, bool is_off);
 
-/** Whether a device is there. */
+/** Devices that the board has not, a bit of model_device_t each: from now on, whatever starts. */
+void model_devices_leave_out(uint32_t devices);
+
+/** Whether a device of an SPI is there. */
 bool model_device_is_there(model_device_t device);
+
+/** Whether the magnetometer is. */
+bool model_field_is_there(void);
 
 /** The supply goes when so many bytes more were written to the memory of parameters. */
 void model_fram_cut(uint32_t bytes);

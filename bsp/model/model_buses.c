@@ -271,7 +271,7 @@ static void begin_transfer(uint32_t control)
         lose_bus();
         return;
     }
-    if (address != FIELD_PLACE) {
+    if ((address != FIELD_PLACE) || !model_field_is_there()) {
         set_flags(I2C_ISR_NACKF | I2C_ISR_STOPF, I2C_BYTE + (2u * I2C_BIT));
         return;
     }

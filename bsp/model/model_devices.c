@@ -98,6 +98,7 @@ static bool fram_changed;
 static uint32_t fram_left; /* Bytes until the supply goes; 0: it does not. */
 static bool is_cut;        /* It has gone. */
 static bool is_off[UNITS]; /* Units that are not at their bus. */
+static uint32_t absent;    /* Devices that the board was built without, a bit each. */
 static model_field_t field;
 static model_moved_t moved_unit[UNITS];
 static model_moved_t moved_pressure;
@@ -152,9 +153,23 @@ void model_unit_unplug(uint32_t unit, bool off)
     is_off[unit] = off;
 }
 
+void model_devices_leave_out(uint32_t devices)
+{
+    absent = devices;
+}
+
 bool model_device_is_there(model_device_t device)
 {
-    return (device == MODEL_ICM20689) ? !is_off[0] : ((device > MODEL_ACCELEROMETER) || !is_off[1]);
+    const bool is_off_bus = (device == MODEL_ICM20689)
+                                ? is_off[0]
+                                : ((device <= MODEL_ACCELEROMETER) && is_off[1]);
+
+    return !is_off_bus && ((absent & (1u << (uint32_t)device)) == 0u);
+}
+
+bool model_field_is_there(void)
+{
+    return (absent & (1u << (uint32_t)MODEL_IST8310)) == 0u;
 }
 
 void model_fram_cut(uint32_t bytes)

@@ -210,9 +210,16 @@ typedef struct copter_date {
     uint64_t read_us;              /**< When that was, by our clock. */
 } copter_date_t;
 
+/** The satellite receiver is silent when no byte of it has come for longer than this: twice the
+ * time between two fixes, where that is the longest (ublox.h). */
+#define COPTER_GPS_SILENT_US 2000000u
+
 /** Written by GPS. */
 typedef struct copter_gps {
     keel_ubx_t receiver;
+    uint32_t bytes;   /**< How many had come at the last run. */
+    uint64_t byte_us; /**< When the last of them came, or the first run was. */
+    bool is_silent;   /**< None has come for COPTER_GPS_SILENT_US. */
     copter_date_t date;
     copter_fix_t fix;
     uint32_t fixes; /**< How many there were. */
@@ -340,6 +347,7 @@ typedef struct copter_state {
     uint32_t homes;  /**< Counts take-offs: home is where the last was. */
     uint64_t stepped_us;
     copter_breach_t breach;
+    uint32_t refusals;    /**< Attempts to arm, by the switch or for a station, that failed. */
     uint32_t unconfirmed; /**< Runs in a row in which no second inertial unit confirms the first. */
     bool lands_unconfirmed; /**< It was asked to land for that. */
 } copter_state_t;

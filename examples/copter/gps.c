@@ -47,6 +47,18 @@ static void derive(copter_gps_t *self, const copter_fix_t *before)
     }
 }
 
+/* Whether it has been silent for too long, whatever its bytes say. */
+static void listen(copter_gps_t *self, uint64_t now_us)
+{
+    const uint32_t bytes = self->receiver.count.bytes;
+
+    if ((bytes != self->bytes) || (self->byte_us == 0u)) {
+        self->bytes = bytes;
+        self->byte_us = now_us;
+    }
+    self->is_silent = (now_us - self->byte_us) > COPTER_GPS_SILENT_US;
+}
+
 void copter_gps(copter_t *copter)
 {
     copter_gps_t *const self = &copter->gps;
@@ -70,4 +82,5 @@ void copter_gps(copter_t *copter)
     if ((now_us - self->fixed_us) > APART_US) {
         self->is_accelerated = false;
     }
+    listen(self, now_us);
 }

@@ -2,6 +2,7 @@
 /* The log: its beginning, samples of its topics, and its task, which moves them to the port. */
 #include "common/trace_log.h"
 #include "copter.h"
+#include "obstacle.h"
 
 #include <string.h>
 
@@ -13,6 +14,7 @@
 #define ROUNDS_PER_S 100u
 #define DEFINITIONS  4u    /* In a run. */
 #define CHUNK        1280u /* Bytes in a run, and so 125 kB/s: two runs of 100 move none. */
+#define LINE         50u   /* Letters of a line of text. */
 
 static const keel_ulog_name_t system_name = {"sys_name"};
 static const char keel_name[] = "Keel";
@@ -218,6 +220,28 @@ static void tell_state(copter_t *copter)
     }
 }
 
+/* And one for each attempt to arm that failed. */
+static void tell_refusal(copter_t *copter)
+{
+    copter_log_t *const log = &copter->log;
+    const uint64_t now_us = copter->scheduler.clock.now_us;
+
+    if (log->refusals != copter->state.refusals) {
+        char line[LINE] = COPTER_NOT_ARMED;
+        const uint32_t begun = (uint32_t)(sizeof COPTER_NOT_ARMED - 1u);
+        const char *const words = copter_obstacle_first(&copter->state.mode);
+        const uint32_t length = (uint32_t)strlen(words);
+        const uint32_t taken = (length < (LINE - begun)) ? length : (LINE - begun);
+
+        log->refusals = copter->state.refusals;
+        memcpy(&line[begun], words, taken);
+        if (keel_ulog_logging(&log->message, KEEL_ULOG_WARNING, now_us, line,
+                              (uint8_t)(begun + taken))) {
+            store(log, now_us);
+        }
+    }
+}
+
 void copter_log_sample(copter_t *copter, uint32_t row)
 {
     copter_log_t *const log = &copter->log;
@@ -237,6 +261,7 @@ void copter_log_sample(copter_t *copter, uint32_t row)
     }
     if (log->samples && (row == (uint32_t)URPILOT_STATE_MACHINE)) {
         tell_state(copter);
+        tell_refusal(copter);
     }
 }
 

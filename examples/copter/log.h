@@ -60,6 +60,7 @@ typedef struct copter_log {
     uint32_t rounds;                            /**< Runs of the log's task. */
     uint32_t lost;                              /**< Records, as far as dropouts tell. */
     uint8_t state;                              /**< Of the state machine, as the log has it. */
+    uint32_t refusals;                          /**< Of state.refusals, those that it has. */
     uint32_t parameter[COPTER_PARAMETER_COUNT]; /**< The bits of each, as the log has it. */
     uint16_t looked_at;                         /**< Of these, in the last run. */
     uint16_t left[COPTER_LOG_TOPICS];           /**< Runs until a topic is sampled. */

@@ -17,6 +17,7 @@
 #include "command.h"
 #include "keel/middleware/range.h"
 #include "mavlink_modes.h"
+#include "obstacle.h"
 
 #include <math.h>
 
@@ -26,60 +27,22 @@
 #define ID_MOST   16777215.0f
 #define NOT_FOUND UINT32_MAX
 
-/* A bit and what it says. */
-typedef struct word {
-    uint32_t bit;
-    const char *text;
-} word_t;
-
-static const word_t checks[] = {
-    {KEEL_MODE_CHECK_GYROSCOPE, "gyroscopes do not agree"},
-    {KEEL_MODE_CHECK_ACCELEROMETER, "accelerometers do not agree"},
-    {KEEL_MODE_CHECK_MAGNETOMETER, "magnetometer"},
-    {KEEL_MODE_CHECK_BAROMETER, "no good altitude"},
-    {KEEL_MODE_CHECK_POSITION_ESTIMATE, "no good position"},
-    {KEEL_MODE_CHECK_CALIBRATION, "not calibrated"},
-    {KEEL_MODE_CHECK_LEVEL_ATTITUDE, "not level"},
-    {KEEL_MODE_CHECK_BATTERY_LEVEL, "battery"},
-    {KEEL_MODE_CHECK_MOTORS, "motors"},
-    {KEEL_MODE_CHECK_CPU_LOAD, "processor load"},
-    {KEEL_MODE_CHECK_STORAGE, "storage"},
-    {KEEL_MODE_CHECK_HOME_POSITION, "no home"},
-    {COPTER_CHECK_GROUND_PRESSURE, "pressure not of the ground: an MS5607?"},
-    {COPTER_CHECK_SAFETY_SWITCH, "safety switch at safe, or none"},
-};
-
-static const word_t facts[] = {
-    {KEEL_MODE_RC_LINKED, "no radio link"},
-    {KEEL_MODE_ARM_SWITCH_ON, "arm switch"},
-    {KEEL_MODE_ARM_SWITCH_OFF, "arm switch not off"},
-    {KEEL_MODE_THROTTLE_LOW, "throttle not low"},
-    {KEEL_MODE_KILL_SWITCH_ON, "kill switch"},
-    {KEEL_MODE_SWITCH_UNMOVED, "mode switch not at a mode to fly"},
-    {KEEL_MODE_LANDED, "not landed"},
-    {KEEL_MODE_ATTITUDE_VALID, "no attitude"},
-    {KEEL_MODE_ALTITUDE_VALID, "no altitude"},
-    {KEEL_MODE_POSITION_VALID, "no position"},
-    {KEEL_MODE_FENCE_BREACHED, "outside the fence"},
-    {KEEL_MODE_BATTERY_CRITICAL, "battery critical"},
-    {KEEL_MODE_BATTERY_EMPTY, "battery empty"},
-};
-
-/* A text for each bit. */
-static void tell(copter_telemetry_t *self, const char *what, uint32_t bits, const word_t *word,
-                 uint32_t words)
+/* A text for each of what stands in the way. */
+static void tell(copter_telemetry_t *self, const char *what, const keel_mode_refusal_t *refusal)
 {
-    for (uint32_t i = 0u; i < words; i++) {
-        if ((bits & word[i].bit) != 0u) {
-            copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, what, word[i].text);
+    for (uint32_t i = 0u; i < COPTER_OBSTACLES; i++) {
+        const char *const words = copter_obstacle(refusal, i);
+
+        if (words != NULL) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, what, words);
         }
     }
 }
 
-static void tell_refusal(copter_telemetry_t *self, const keel_mode_refusal_t *refusal)
+/* Why it is not armed. */
+static void tell_refusal(copter_telemetry_t *self, const char *words)
 {
-    tell(self, "not armed: ", refusal->checks, checks, sizeof checks / sizeof checks[0]);
-    tell(self, "not armed: ", refusal->facts, facts, sizeof facts / sizeof facts[0]);
+    copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, COPTER_NOT_ARMED, words);
 }
 
 static void acknowledge(copter_telemetry_t *self, const copter_waiter_t *to, uint32_t result)
@@ -124,13 +87,11 @@ static uint32_t arm(copter_t *copter)
         return MAV_RESULT_ACCEPTED;
     }
     if ((machine->blocking.checks != 0u) || (machine->blocking.facts != 0u) || !machine->ready) {
-        tell_refusal(copter->telemetry, &machine->blocking);
+        tell(copter->telemetry, COPTER_NOT_ARMED, &machine->blocking);
         if ((machine->settled & KEEL_MODE_RC_LINKED) == 0u) {
-            copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING,
-                        "not armed: ", "no radio link for long enough");
+            tell_refusal(copter->telemetry, "no radio link for long enough");
         } else if (!machine->ready) {
-            copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING,
-                        "not armed: ", "arm switch was not off");
+            tell_refusal(copter->telemetry, "arm switch was not off");
         } else {
             /* It has been told. */
         }
@@ -159,6 +120,7 @@ static uint32_t disarm(copter_t *copter)
 static uint32_t arm_or_disarm(copter_t *copter, const copter_command_t *command)
 {
     copter_telemetry_t *const self = copter->telemetry;
+    const keel_mode_t *const machine = &copter->state.mode;
     const bool on = keel_range_contains(command->param[0], 1.0f, 1.0f);
     const bool off = keel_range_contains(command->param[0], 0.0f, 0.0f);
     uint32_t result;
@@ -168,9 +130,14 @@ static uint32_t arm_or_disarm(copter_t *copter, const copter_command_t *command)
                    ? MAV_RESULT_IN_PROGRESS
                    : MAV_RESULT_TEMPORARILY_REJECTED;
     }
-    if ((on == off) || (copter->state.mode.state == KEEL_MODE_TERMINATED) ||
-        !copter_command_is_empty(command->param[1])) {
+    if ((on == off) || !copter_command_is_empty(command->param[1])) {
         return MAV_RESULT_DENIED; /* A second number asks to force it. */
+    }
+    if (machine->state == KEEL_MODE_TERMINATED) {
+        if (on) {
+            tell_refusal(self, copter_obstacle_first(machine));
+        }
+        return MAV_RESULT_DENIED;
     }
     result = on ? arm(copter) : disarm(copter);
     if (result == MAV_RESULT_IN_PROGRESS) {
@@ -504,22 +471,39 @@ static void answer(copter_telemetry_t *self, copter_moved_t *moved, copter_waite
     waiter->command = 0u;
 }
 
+/* Says why an attempt to arm failed: all to whoever asked, the first to who moved his switch. What
+ * failed without an attempt of the machine, as the link was lost, is in its way now. */
+static void tell_attempt(copter_t *copter)
+{
+    copter_telemetry_t *const self = copter->telemetry;
+    const copter_state_t *const state = &copter->state;
+    const copter_action_request_t *const request = &copter->request;
+    const bool is_tried = state->refusals != self->refusals;
+
+    self->refusals = state->refusals;
+    if ((request->arm.answer == COPTER_ANSWER_REFUSED) && request->arms) {
+        tell(self, COPTER_NOT_ARMED, is_tried ? &state->mode.refused : &state->mode.blocking);
+    } else if (is_tried) {
+        tell_refusal(self, copter_obstacle_first(&state->mode));
+    } else {
+        /* Nobody tried, or it is armed. */
+    }
+}
+
 void copter_mavlink_pass_answers(copter_t *copter)
 {
     copter_telemetry_t *const self = copter->telemetry;
     const keel_mode_t *const machine = &copter->state.mode;
     copter_action_request_t *const request = &copter->request;
 
+    tell_attempt(copter);
     if (request->arm.answer > COPTER_ANSWER_WAITS) {
-        if ((request->arm.answer == COPTER_ANSWER_REFUSED) && request->arms) {
-            tell_refusal(self, &machine->refused);
-        }
         answer(self, &request->arm, &self->arm_waiter);
     }
     if (request->mode.answer > COPTER_ANSWER_WAITS) {
         if (request->mode.answer == COPTER_ANSWER_REFUSED) {
             copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "mode: ", "the aircraft cannot");
-            tell(self, "mode: ", machine->missing, facts, sizeof facts / sizeof facts[0]);
+            tell(self, "mode: ", &(keel_mode_refusal_t){.facts = machine->missing});
         }
         answer(self, &request->mode, &self->mode_waiter);
     }

@@ -176,12 +176,25 @@ static void watch_fence(copter_t *copter, uint32_t facts)
     }
 }
 
+/* An attempt to arm ends with a switch that is no longer ready, though the link is there. With the
+ * motors off before and behind it, it was in vain. */
+static void count_refusal(copter_state_t *self, bool could_try)
+{
+    const keel_mode_t *const mode = &self->mode;
+
+    if (could_try && !mode->ready && !mode->motors &&
+        ((mode->settled & KEEL_MODE_RC_LINKED) != 0u)) {
+        self->refusals++;
+    }
+}
+
 void copter_state_machine(copter_t *copter)
 {
     copter_state_t *const self = &copter->state;
     const uint64_t now_us = copter->scheduler.clock.now_us;
     const bool frame = copter->pilot.frames != self->frames;
     const bool was_disarmed = self->mode.state == KEEL_MODE_DISARMED;
+    const bool could_try = self->mode.ready && !self->mode.motors;
     keel_mode_input_t input = {.elapsed_us = (uint32_t)(now_us - self->stepped_us),
                                .facts = facts_of(copter) | (frame ? copter->pilot.facts : 0u),
                                .checks = checks_of(copter),
@@ -193,6 +206,7 @@ void copter_state_machine(copter_t *copter)
     land_unconfirmed(copter);
     copter_action_request_apply(&copter->request, frame, &input);
     keel_mode_step(&self->mode, &input);
+    count_refusal(self, could_try);
     copter_action_request_follow(&copter->request, &self->mode, input.elapsed_us);
     if (was_disarmed && self->mode.motors) {
         self->homes++;

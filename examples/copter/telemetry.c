@@ -181,6 +181,33 @@ static void tell_radio(copter_telemetry_t *self, const copter_pilot_t *pilot)
     }
 }
 
+/* A copter that may fly without a place need not have a receiver. */
+static bool is_expected(void)
+{
+    return (copter_settings.mode.required &
+            (KEEL_MODE_CHECK_POSITION_ESTIMATE | KEEL_MODE_CHECK_HOME_POSITION)) != 0u;
+}
+
+/* Says when the satellite receiver is silent, as often as the notices at most: again and again
+ * until motors turn, and once for each silence from then on. And when it sends again. */
+static void tell_satellites(copter_telemetry_t *self, const copter_gps_t *gps, uint64_t now_us)
+{
+    if (!gps->is_silent) {
+        if (self->is_silent) {
+            copter_text(self, (uint8_t)MAV_SEVERITY_INFO, "GPS: ", "the receiver sends again");
+        }
+        self->is_silent = false;
+    } else if (is_expected() && (!self->is_silent || !self->has_flown) &&
+               (now_us >= self->silent_us)) {
+        copter_text(self, (uint8_t)MAV_SEVERITY_WARNING,
+                    "GPS: ", "nothing comes from the receiver");
+        self->is_silent = true;
+        self->silent_us = now_us + NOTICES_US;
+    } else {
+        /* It is no news. */
+    }
+}
+
 /* Says where the height comes from when that is another. That there is one at first is no news. */
 static void tell_height(copter_telemetry_t *self, const copter_vertical_t *vertical)
 {
@@ -465,6 +492,7 @@ void copter_telemetry(copter_t *copter)
     tell_mode(self, copter_mavlink_mode_told(copter));
     tell_fence(self, (copter->state.mode.seen & KEEL_MODE_FENCE_BREACHED) != 0u);
     tell_radio(self, &copter->pilot);
+    tell_satellites(self, &copter->gps, copter->scheduler.clock.now_us);
     tell_height(self, &copter->estimate.vertical);
     tell_crash(self, copter->estimate.vertical.is_crashed);
     tell_unconfirmed(self, copter->state.lands_unconfirmed);

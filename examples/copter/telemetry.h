@@ -135,11 +135,14 @@ typedef struct copter_telemetry {
     uint8_t heard;          /**< What was heard of the pilot's receiver, as it was told. */
     uint8_t height;         /**< Where the height came from, as it was told: copter_height_t. */
     bool had_height;        /**< It was known once. */
+    bool is_silent;         /**< The satellite receiver, as it was told. */
+    uint64_t silent_us;     /**< When that may be told again. */
     bool is_outside;        /**< Of the fence, in the last run. */
     bool is_crashed;        /**< As it was told. */
     bool is_unconfirmed;    /**< The same. */
     bool has_flown;         /**< Motors have turned since the start. */
     uint64_t notices_us;    /**< When the port's notices are to be told again. */
+    uint32_t refusals;      /**< What was taken of state.refusals. */
     uint32_t turns;         /**< What was taken of calibration.turns. */
     uint64_t turned_us;     /**< When it was told that it turns. */
     uint32_t field_ends;    /**< What was taken of calibration.field_ends. */
@@ -200,7 +203,8 @@ void copter_keep_calibration(copter_t *copter);
 /** Tells all that a parameter is set, as by copter_mavlink_set_parameter; it is saved, and put in
  * force on the ground. */
 void copter_mavlink_parameter_is_set(copter_t *copter, uint16_t index);
-/** Answers those whose requests the state machine decided. */
+/** Says why the pilot's attempt to arm failed, and answers those whose requests the state machine
+ * decided. */
 void copter_mavlink_pass_answers(copter_t *copter);
 /** Fills the payload of one of messages_sent; returns whether there is anything to say. */
 bool copter_mavlink_report(const copter_t *copter, copter_link_t *link, uint32_t sent,

@@ -711,6 +711,28 @@ def test_a_safety_switch_that_is_used_and_not_there_is_named(copter: Copter) -> 
     assert rig.ask(ARM, 1) == ACCEPTED
 
 
+def test_an_attempt_by_the_switch_is_told_and_logged(copter: Copter, tmp_path: Path) -> None:
+    """HEA-007: the words are those of a command, once for each attempt, also in the log."""
+    copter.log(tmp_path / "log.ulg")
+    rig = Rig(copter)
+    rig.channels[THROTTLE] = 1500
+    rig.run(500)
+    assert rig.ask(ARM, 1) == REJECTED
+    rig.run(500)
+    told = [text for text in rig.texts() if text.startswith("not armed: ")]
+    assert told == ["not armed: throttle not low"]
+    for _ in range(2):
+        rig.channels[ARM_SWITCH] = ON
+        rig.run(2000)
+        rig.channels[ARM_SWITCH] = OFF
+        rig.run(1000)
+    assert rig.state() == DISARMED
+    assert [text for text in rig.texts() if text.startswith("not armed: ")] == 3 * told
+    copter.log(None)
+    lines = [line.text for line in ulog.read(tmp_path / "log.ulg").texts]
+    assert lines == 2 * told  # What a command asks for is no attempt until nothing is in its way.
+
+
 def test_without_the_pilots_link_nothing_moves(copter: Copter) -> None:
     rig = Rig(copter)
     rig.without_radio(1000)

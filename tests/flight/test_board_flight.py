@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import io
 import json
 import math
+import operator
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -35,7 +37,16 @@ ARMS_S = 9.6
 READY_MS = 2000
 UNKNOWN = 2**32 - 1
 # Of MAVLink's common.xml: MAV_SYS_STATUS_SENSOR, and MAV_MODE_FLAG_SAFETY_ARMED.
-MAGNETOMETER, ABSOLUTE_PRESSURE, SATELLITES, RECEIVER, ARMED = 0x04, 0x08, 0x20, 0x10000, 0x80
+GYROSCOPE, ACCELEROMETER, MAGNETOMETER, ABSOLUTE_PRESSURE = 0x01, 0x02, 0x04, 0x08
+SATELLITES, RECEIVER, ARMED = 0x20, 0x10000, 0x80
+# Of each device that can be absent, its name on the console, and what its absence makes unhealthy.
+DEVICES = {
+    "imu_1": ("imu 1", GYROSCOPE | ACCELEROMETER),
+    "imu_2": ("imu 2", GYROSCOPE | ACCELEROMETER),
+    "barometer": ("barometer", ABSOLUTE_PRESSURE),
+    "magnetometer": ("magnetometer", MAGNETOMETER),
+    "memory": ("parameters", 0),
+}
 
 
 @pytest.fixture(scope="module")
@@ -113,44 +124,71 @@ def ready_ms(copter: BoardCopter, silent: int | str | None) -> int:
     raise AssertionError(f"not ready: {copter.text()}")
 
 
-@pytest.mark.parametrize(
-    ("silent", "console", "lacks"),
-    [
-        (None, "", 0),
-        (0, "imu 1", 0),
-        (1, "imu 2", 0),
-        ("barometer", "", ABSOLUTE_PRESSURE),  # It answers, but never has another sample.
-        ("magnetometer", "magnetometer", MAGNETOMETER),
-    ],
-)
-def test_it_is_disarmed_two_seconds_after_power_on_and_names_what_is_absent(
-    flown: BoardCopter, pymavlink: Any, silent: int | str | None, console: str, lacks: int
-) -> None:
-    """RST-004. Neither the pilot's receiver nor that of satellites sends, and the slot is empty."""
-    flown.start(100, False)
-    ready = ready_ms(flown, silent)
+def told_by(copter: BoardCopter, pymavlink: Any, silent: int | str | None) -> list[Any]:
+    """Each message from its start, which must be in time, until four seconds after power-on."""
+    copter.start(100, False)
+    ready = ready_ms(copter, silent)
     assert ready < READY_MS
     told = b""
-    for now_ms in range(ready, 3500, 10):
-        assert rest(flown, now_ms, now_ms + 10, silent) == 0
-        told += flown.receive(0)
+    for now_ms in range(ready, 4000, 10):
+        assert rest(copter, now_ms, now_ms + 10, silent) == 0, copter.why(0)
+        told += copter.receive(0)
+    return list(pymavlink.MAVLink(None).parse_buffer(told))
+
+
+def check_named(copter: BoardCopter, messages: list[Any], absent: set[str], lacks: int) -> None:
+    """Each device that fails is named on the console and by a text, and nothing else is; both
+    receivers by texts; and what is not healthy, at least, is not said to be."""
     failing = {
         line.partition(" status ")[0]
-        for line in flown.text().splitlines()
+        for line in copter.text().splitlines()
         if " status " in line and not line.endswith(" status 0")
     }
-    assert failing == {"card", console} - {""}
-    messages = pymavlink.MAVLink(None).parse_buffer(told)
-    texts = {it.text for it in messages if it.get_type() == "STATUSTEXT"}
-    assert {text for text in texts if text.endswith(": fails")} == {
+    assert failing == {"card"} | absent
+    texts = [it.text for it in messages if it.get_type() == "STATUSTEXT"]
+    assert sorted(text for text in texts if text.endswith(": fails")) == sorted(
         f"{it}: fails" for it in failing
-    }
-    assert "radio: nothing comes from the receiver" in texts
-    assert counts(flown)["fixes"] == counts(flown)["radio"] == 0
+    )
+    assert texts.count("radio: nothing comes from the receiver") == 1
+    assert texts.count("GPS: nothing comes from the receiver") == 1
+    assert counts(copter)["fixes"] == counts(copter)["radio"] == 0
     health = [it for it in messages if it.get_type() == "SYS_STATUS"][-1]
     missing = ~health.onboard_control_sensors_health & health.onboard_control_sensors_enabled
     assert missing & (SATELLITES | RECEIVER | lacks) == SATELLITES | RECEIVER | lacks
     assert not any(it.base_mode & ARMED for it in messages if it.get_type() == "HEARTBEAT")
+
+
+@pytest.mark.parametrize(
+    "absent",
+    [(), *((device,) for device in DEVICES), tuple(DEVICES)],
+    ids=["card", *DEVICES, "all"],
+)
+def test_it_is_disarmed_two_seconds_after_power_on_whatever_is_absent(
+    flown: BoardCopter, pymavlink: Any, absent: tuple[str, ...]
+) -> None:
+    """RST-004, HEA-008. Neither the pilot's receiver nor that of satellites sends, and the slot is
+    empty, in all of these; so the last one has nothing but the chip."""
+    flown.lack(*absent)
+    messages = told_by(flown, pymavlink, None)
+    lacks = functools.reduce(operator.or_, (DEVICES[device][1] for device in absent), 0)
+    check_named(flown, messages, {DEVICES[device][0] for device in absent}, lacks)
+
+
+@pytest.mark.parametrize(
+    ("silent", "console", "lacks"),
+    [
+        (0, "imu 1", GYROSCOPE | ACCELEROMETER),
+        (1, "imu 2", GYROSCOPE | ACCELEROMETER),
+        ("barometer", "", ABSOLUTE_PRESSURE),  # It answers, but never has another sample.
+        ("magnetometer", "magnetometer", MAGNETOMETER),
+    ],
+)
+def test_it_is_disarmed_two_seconds_after_power_on_though_one_is_silent(
+    flown: BoardCopter, pymavlink: Any, silent: int | str, console: str, lacks: int
+) -> None:
+    """RST-004. It is at its bus, and gives no sample."""
+    messages = told_by(flown, pymavlink, silent)
+    check_named(flown, messages, {console} - {""}, lacks)
 
 
 def test_a_unit_whose_count_stands_is_silent_and_the_other_goes_on(flown: BoardCopter) -> None:

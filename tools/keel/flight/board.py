@@ -129,6 +129,7 @@ class BoardCopter(Copter):
         self._log: Path | None = None
         image = json.loads((path.parent / IMAGE).read_text(encoding="utf-8"))
         self._load(image)
+        self.lack()  # The process has one board: all of it is there again.
 
     def _load(self, image: dict[str, Any]) -> None:
         """Tells the library of the image."""
@@ -217,6 +218,11 @@ class BoardCopter(Copter):
     def timed(self) -> list[BoardTask]:
         """The image's tasks, with how long each took at most since power-up."""
         return list(self._own_tasks.read(self._library.board_number))
+
+    def lack(self, *devices: str) -> None:
+        """Power up without these, from the next start on: imu_1, barometer, memory and so on."""
+        bits = [getattr(self._library, f"BOARD_HAS_NO_{device.upper()}") for device in devices]
+        self._library.board_lack(sum(bits))
 
     def hear(self, radio: str) -> None:
         """How the pilot's receiver sends."""
