@@ -13,6 +13,7 @@ import unittest
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 from evidence_sample import STAMP, PartTest
 
@@ -20,12 +21,14 @@ from keel.base.errors import ToolError
 from keel.base.files import write_text
 from keel.base.source import PRODUCT
 from keel.base.source import STAMP as MADE_FROM
+from keel.base.verdict_cache import Cache
 from keel.gather.part import Context
 from keel.gather.parts import tools as part_tools
 from keel.gather.parts.tools import SETTINGS, Settings
 from keel.install import Found, Toolchain
 from keel.install.lock import Spec
 from keel.qualify import command as qualify
+from keel.qualify import mistakes
 from keel.qualify.board_trials import TRIALS
 from keel.qualify.mistakes import TABLE, read_mistakes
 from keel.qualify.seeds import SEEDS
@@ -243,6 +246,18 @@ class Mistakes(unittest.TestCase):
 
     def test_each_can_be_put_into_its_file_and_each_trial_has_some(self) -> None:
         self.assertEqual({one.trial for one in read_mistakes()}, set(TRIALS))
+
+    def test_a_trial_that_the_right_code_fails_shows_nothing(self) -> None:
+        known = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        tools = mock.Mock(**{"versions.return_value": {mistakes.TOOL: cbmc()["cbmc"]}})
+        said = iter(["the right code fails: 1 != 2", ""])
+        with (
+            mock.patch.object(mistakes, "answers", return_value=said),
+            contextlib.redirect_stdout(io.StringIO()),
+        ):
+            [row] = mistakes.rows(tools, read_mistakes()[:1], Cache(known))
+        self.assertEqual(row["wrong"], "the right code fails: 1 != 2")
+        self.assertEqual(list(known.iterdir()), [])
 
     def test_what_cannot_be_put_in_is_refused_with_its_line(self) -> None:
         first = "[[mistake]]" + (ROOT / TABLE).read_text().split("\n[[mistake]]")[1]

@@ -151,7 +151,7 @@ def rows(tools: Toolchain, mistakes: Sequence[Mistake], cache: Cache) -> list[di
     wrong: dict[Asked, str] = {}
     for one, answer in zip(new, answers(tools, new), strict=True):
         trial, mistake = one
-        wrong[one] = wrong.get((trial, None), "") or answer
+        wrong[one] = wrong.get((trial, None), "") or answer.replace("\n", " ")
         if not wrong[one]:
             cache.put(key_of(one), {"detected": True})
         if mistake:
