@@ -15,10 +15,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from keel.base.errors import ROOT
+from keel.boards.bmi055 import Bmi055Part
 from keel.boards.board import application_of
 from keel.boards.chip import Chip
 from keel.boards.dma_uart import PLAIN, SBUS, Bits
 from keel.boards.firmware import Builder
+from keel.boards.icm20689 import Icm20689
 from keel.boards.motion import Motion
 from keel.boards.processor import Processor
 from keel.boards.pulses import FLOATS, LOW, Pulse, State
@@ -133,7 +135,8 @@ LINES_MS = 1400  # The first report comes after a second.
 def resting(board: str = "fmuv5") -> Chip:
     """A board on a desk, with two power modules and sensors that have noise."""
     chip = chip_of(board, STEP_US, read_sockets(ROOT)[board].outputs)
-    for seed, unit in enumerate((chip.sensor, chip.gyroscope, chip.accelerometer)):
+    units: list[Icm20689 | Bmi055Part] = [chip.sensor, chip.gyroscope, chip.accelerometer]
+    for seed, unit in enumerate(units):
         unit.motion = Motion(noise=2, seed=seed)
     chip.barometer.noise = 300
     chip.magnetometer.counts = FIELD
