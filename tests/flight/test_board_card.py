@@ -15,7 +15,7 @@ import pytest
 from pyulog import ULog
 from test_board_faults import Result, check_flown
 from test_board_flight import READY_MS, flown, made, rest
-from test_copter_image import mistaken, tools
+from test_copter_image import tools
 
 from keel.base.files import write_json
 from keel.boards import firmware
@@ -26,6 +26,7 @@ from keel.flight.board import BoardCopter
 from keel.flight.card import SIZE, log_of, new_card
 from keel.flight.loop import Flight, Order, state_names
 from keel.install import Toolchain
+from keel.qualify.mistakes import Mistake, mistaken
 
 __all__ = ["flown", "made", "tools"]  # Fixtures.
 ENDS_S = 9.5
@@ -135,13 +136,14 @@ def test_the_model_refuses(
     board = read_board(root, "fmuv5")
     builder = firmware.Builder(tools, board, root / "build/card", root)
     parts = application_of(board, "copter").application
-    builder.objects(parts)
-    with mistaken(root, builder, path, old, new):
-        image = builder.link("keel", [*builder.objects(parts), *builder.fatfs()])
-        told = {"elf": str(image.elf), "binary": str(image.binary), "address": board.load_address}
-        write_json(tmp_path / flying_board.IMAGE, told)
-        copter = BoardCopter(shutil.copy(made, tmp_path / made.name))
-        copter.insert(new_card(tools))
-        copter.start(100, False)
-        assert rest(copter, 0, 1500) == 1
-        assert why in copter.why(0)
+    mistake = Mistake(trial="lines", file=path, old=old, new=new)
+    assert mistake.text().count(old) == 1
+    builder.build.made[(path,)] = mistaken(builder, mistake, tmp_path / "wrong")
+    image = builder.link("keel", [*builder.objects(parts), *builder.fatfs()])
+    told = {"elf": str(image.elf), "binary": str(image.binary), "address": board.load_address}
+    write_json(tmp_path / flying_board.IMAGE, told)
+    copter = BoardCopter(shutil.copy(made, tmp_path / made.name))
+    copter.insert(new_card(tools))
+    copter.start(100, False)
+    assert rest(copter, 0, 1500) == 1
+    assert why in copter.why(0)

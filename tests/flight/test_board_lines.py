@@ -4,67 +4,31 @@ ground stations send and hear there, from power-on to turning motors."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from test_copter_image import STEP_US, images, reports, sources, tools
+from test_copter_image import images, sources, tools
 
-from keel.base.errors import ROOT
 from keel.boards.built import read_built
 from keel.boards.chip import Chip
-from keel.boards.dma_uart import CRSF, PLAIN, SBUS, Bits
-from keel.boards.motion import Motion
+from keel.boards.dma_uart import CRSF, PLAIN, Bits
 from keel.boards.packages import load
 from keel.boards.processor import Processor
 from keel.boards.pulses import LOW, Pulse
-from keel.boards.sockets import read_sockets
-from keel.boards.wiring import WIRINGS
 from keel.flight import device_frames
 from keel.install import Toolchain
+from keel.qualify.board_trials import FIX_MS, HEIGHT_M, PLACE, reports, resting, send_radio
 
 __all__ = ["images", "sources", "tools"]  # Fixtures.
 
-FRAME_MS, FIX_MS = 14, 100
-PLACE, HEIGHT_M = (47.3977, 8.5456), 500.0
-FIELD = (284, 7, 570)  # There: 21.5 uT along the magnetometer's x, and 43.2 downwards.
 ARM, KILL = 4, 6  # Channels.
-
-
-def resting() -> Chip:
-    """An FMUv5 on a desk, with two power modules and sensors that have noise."""
-    chip = Chip(WIRINGS["fmuv5"], "", read_sockets(ROOT)["fmuv5"].outputs)
-    chip.step_us = STEP_US
-    for seed, unit in enumerate((chip.sensor, chip.gyroscope, chip.accelerometer)):
-        unit.motion = Motion(noise=2, seed=seed)
-    chip.barometer.noise = 300
-    chip.magnetometer.counts = FIELD
-    chip.counts[2], chip.counts[3] = chip.counts[0], chip.counts[1]
-    return chip
 
 
 def run_built(tools: Toolchain, root: Path, chip: Chip, until_ms: int) -> None:
     """The whole image, on a chip."""
     image = read_built(root, "fmuv5")
     Processor(tools, image.binary.read_bytes(), image.address, chip).run(1000 * until_ms)
-
-
-def send_radio(
-    chip: Chip,
-    line: str,
-    until_ms: int,
-    switched: dict[int, int],
-    frame: Callable[[list[int]], bytes] = device_frames.sbus,
-    bits: Bits = SBUS,
-) -> None:
-    """Frames of the pilot's receiver: sticks at rest, throttle low, and switches that are on from a
-    time on, in ms."""
-    for now_ms in range(100, until_ms, FRAME_MS):
-        channels = [1500, 1500, 1000, 1500, 1000, 1500, 1000, 1500]
-        for channel, on_ms in switched.items():
-            channels[channel] = 2000 if now_ms >= on_ms else 1000
-        chip.lines[line].send(1000 * now_ms, frame(channels), bits)
 
 
 def test_the_whole_image_arms_tells_and_stops(

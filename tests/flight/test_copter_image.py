@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The copter's image of the real boards, on the model of their chip: what it says is there and what
-not, its samples in body axes, its log on a card, and pulses for motors that it is told to turn."""
+not, and its log on a card."""
 
 from __future__ import annotations
 
 import contextlib
 import io
 import json
-import re
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -23,68 +22,12 @@ from keel.boards import chip_model, firmware, stack
 from keel.boards.board import application_of, read_board
 from keel.boards.card import SdCard
 from keel.boards.chip import Chip
-from keel.boards.processor import Processor
-from keel.boards.pulses import LOW, Pulse, State
 from keel.boards.rebuilt import SOURCES
-from keel.boards.sockets import read_sockets
-from keel.boards.wiring import WIRINGS
 from keel.install import Toolchain
+from keel.qualify.board_trials import STEP_US, reports
 
 __all__ = ["pyfatfs"]  # A fixture.
 BOARDS = ("fmuv5", "cuav_v5", "nucleo_f767zi")
-STEP_US = 4
-UNITS_OF = {"fmuv5": 2, "cuav_v5": 3, "nucleo_f767zi": 1}
-
-# Says how the board has turned a sample, and turns motors by the port.
-TURNER = """\
-#include "board.h"
-#include "../copter_on_board/board_port.h"
-#include "console.h"
-
-static board_port_t board;
-static uint32_t turns KEEL_REALTIME_ZERO;
-
-static void wait(uint32_t us)
-{
-    const uint32_t start_us = keel_board_clock_us(NULL);
-
-    while ((keel_board_clock_us(NULL) - start_us) < us) {
-        turns++;
-    }
-}
-
-static void print_signed(float value)
-{
-    keel_console_text((value < 0.0f) ? " -" : " ");
-    keel_console_number((uint64_t)((((value < 0.0f) ? -value : value) * 1000.0f) + 0.5f));
-}
-
-int main(void)
-{
-    static const float output[4][COPTER_MOTORS] = {
-        {0.0f, 0.0f, 0.0f, 0.0f}, {0.05f, 0.25f, 0.5f, 1.0f}, {0.05f, 0.05f, 0.05f, 0.05f},
-        {0.0f, 0.0f, 0.0f, 0.0f},
-    };
-    const copter_port_t port = board_port_start(&board);
-    copter_imu_sample_t sample;
-
-    for (uint32_t unit = 0u; port.read_imu(&board, unit, &sample); unit++) {
-        keel_console_text("body");
-        for (uint32_t i = 0u; i < 3u; i++) {
-            print_signed(sample.accelerometer[i]);
-        }
-        for (uint32_t i = 0u; i < 3u; i++) {
-            print_signed(sample.gyroscope[i]);
-        }
-        keel_console_text("\\n");
-    }
-    for (uint32_t i = 0u; i < 4u; i++) {
-        port.write_motors(&board, output[i]);
-        wait(6000u);
-    }
-    keel_board_halt(0);
-}
-"""
 
 
 @pytest.fixture(scope="module")
@@ -93,8 +36,6 @@ def sources() -> Iterator[Path]:
         root = Path(name, "one")
         for part in (*SOURCES, "specs"):
             shutil.copytree(ROOT / part, root / part)
-        (root / "examples/turner").mkdir()
-        (root / "examples/turner/main.c").write_text(TURNER)
         yield root
 
 
@@ -125,14 +66,6 @@ def run(
     chip = chip_model.simulate(tools, root, board, seconds, [], broken, STEP_US, card=card)
     assert chip.resets == 0, chip.text
     return chip
-
-
-def reports(chip: Chip) -> list[dict[str, int]]:
-    """The lines of each second."""
-    lines = re.findall(r"^t (\d+) s (.*)\r$", chip.text, re.MULTILINE)
-    return [
-        {key: int(value) for key, value in re.findall(r"(\w+) (\d+)", text)} for _, text in lines
-    ]
 
 
 @pytest.mark.parametrize("board", BOARDS)
@@ -281,108 +214,7 @@ def test_the_log_is_on_the_card(tools: Toolchain, images: Path, pyfatfs: tuple[A
     assert last_us > 2_000_000
 
 
-PORT, UNITS, PINS, VARIANT = (
-    "examples/copter_on_board/board_port.c",
-    "bsp/stm32f767/target/inertial.c",
-    "bsp/fmuv5/pins.c",
-    "bsp/fmuv5/variant.c",
-)
-
-
-@contextlib.contextmanager
-def mistaken(
-    root: Path, builder: firmware.Builder, path: str, old: str, new: str
-) -> Iterator[None]:
-    """A source with a mistake, for a while."""
-    file = root / path
-    text = file.read_text()
-    plain = re.sub(r" +", " ", text)
-    assert plain.count(old) == 1, old
-    file.write_text(plain.replace(old, new))
-    builder.build.made.pop((path,), None)
-    try:
-        builder.object(path)
-        yield
-    finally:
-        file.write_text(text)
-        builder.build.made.pop((path,), None)
-
-
-# --- Pulses and axes by the port. ---
-
-
-def turner(
-    tools: Toolchain, root: Path, name: str, builder: firmware.Builder | None = None
-) -> Chip:
-    board = read_board(root, name)
-    made = builder or firmware.Builder(tools, board, root / "build/turner" / name, root)
-    own = ("board_port.c", "board_lines.c", "board_panel.c")
-    parts = ["examples/turner", *(f"examples/copter_on_board/{name}" for name in own)]
-    image = made.link("keel", [*made.objects(parts), *made.fatfs()])
-    sockets = read_sockets(ROOT)[name].outputs
-    chip = Chip(WIRINGS[name], "", sockets)
-    chip.step_us = 2
-    Processor(tools, image.binary.read_bytes(), board.load_address, chip).run(700_000)
-    return chip
-
-
-def check_turner(chip: Chip, count: int) -> None:
-    """A unit says 1 g along its third axis, 1 count of rate there, and how often it was read about
-    its first: both boards have it upside down, so that a board at rest feels -9.807 m/s^2
-    downwards, and a count of 1 / 16.4 degrees a second is 1.064 mrad/s."""
-    is_fmuv5 = len(chip.outputs.log) == 8
-    about = 4 if is_fmuv5 else 3  # An FMUv5 has the units' x to the right.
-    units = re.findall(r"^body (.*)\r$", chip.text, re.MULTILINE)
-    assert len(units) == count, chip.text
-    samples = [chip.sensor.samples, chip.gyroscope.samples, chip.third.samples]
-    for unit, read in zip(units, samples, strict=False):
-        words = unit.split()
-        assert words[:3] == ["0", "0", "-9807"]
-        assert words[5] == "-1"
-        assert read == 1
-        assert (words[about], words[7 - about]) == ("1", "0")
-    assert chip.accelerometer.samples == chip.gyroscope.samples
-    for number, log in enumerate(chip.outputs.log):
-        pulses: list[State] = (
-            [Pulse(1000 + 50 * (0, 1, 5, 10, 20)[number + 1], 2500), Pulse(1050, 2500), LOW]
-            if number < 4
-            else []
-        )
-        if number == 0:
-            del pulses[1]  # The same pulse goes on.
-        assert [state for _, state in log] == ["floats", LOW, *pulses], number
-
-
-@pytest.mark.parametrize("board", BOARDS)
-def test_motors_turn_at_their_sockets_and_samples_are_of_the_body(
-    tools: Toolchain, sources: Path, board: str
-) -> None:
-    check_turner(turner(tools, sources, board), UNITS_OF[board])
-
-
-MISTAKES = (
-    (PORT, "(PULSE_US * output[i])", "(PULSE_US * output[0])"),
-    (PORT, "keel_chip_pulse(i,", "keel_chip_pulse(3u - i,"),
-    (PORT, "keel_chip_arm();", ""),
-    (PORT, "else if (board->turning) {", "else if (false) {"),
-    (PORT, "(unit >= keel_chip_inertial_count())", "(unit > 0u)"),
-    (PORT, "keel_chip_motion(unit,", "keel_chip_motion(0u,"),
-    (VARIANT, "F, 2u, 2, 1, -3)", "F, 2u, 1, 2, 3)"),
-    (VARIANT, "F, 2u, 2, 1, -3)", "F, 2u, 1, -2, -3)"),
-    (VARIANT, "G, 10u, 2, 1, -3)", "G, 10u, 1, -2, -3)"),
-    (VARIANT, "BMI055, F, 4u, G, 10u", "BMI055, G, 10u, F, 4u"),
-    (UNITS, "? -(float)value", "? (float)value"),
-    (UNITS, "(9.80665f / 2048.0f)", "(9.80665f / 4096.0f)"),
-)
-
-
-def test_mistakes_in_the_port_are_noticed(tools: Toolchain, sources: Path) -> None:
-    board = read_board(sources, "fmuv5")
-    builder = firmware.Builder(tools, board, sources / "build/wrong", sources)
-    check_turner(turner(tools, sources, "fmuv5", builder), 2)
-    for path, old, new in MISTAKES:
-        with mistaken(sources, builder, path, old, new), pytest.raises(AssertionError):
-            check_turner(turner(tools, sources, "fmuv5", builder), 2)
+VARIANT = "bsp/fmuv5/variant.c"
 
 
 @pytest.mark.parametrize("mounting", ["2, 1, 3)", "1, 1, 3)", "1, 2, 4)", "0, 2, 3)"])

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 from pyulog import ULog
 from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
-from test_board_lines import ARM, FIX_MS, FRAME_MS, HEIGHT_M, PLACE, pymavlink, resting, run_built
-from test_copter_image import images, reports, sources, tools
+from test_board_lines import ARM, pymavlink, run_built
+from test_copter_image import images, sources, tools
 
 from keel.boards.card import SdCard
 from keel.boards.chip import Chip
@@ -20,11 +20,19 @@ from keel.boards.dma_uart import PLAIN, SBUS
 from keel.boards.pulses import FLOATS, LOW, Pulse
 from keel.flight import device_frames
 from keel.install import Toolchain
+from keel.qualify.board_trials import (
+    FIX_MS,
+    FRAME_MS,
+    HEIGHT_M,
+    MISHAP_US,
+    PLACE,
+    RESTART,
+    reports,
+    resting,
+)
 
 __all__ = ["images", "pyfatfs", "pymavlink", "sources", "tools"]  # Fixtures.
 
-AT_US = 1_700_000  # Of a mishap on the ground, behind the first second of its run.
-RESTART = "disarmed by a restart: "
 UP_US = 1_000_000  # So soon it is ready again.
 
 
@@ -47,7 +55,7 @@ def reasons_of(pymavlink: Any, chip: Chip) -> list[str]:
 
 def befallen(tools: Toolchain, root: Path, mishap: str, until_ms: int = 3400) -> Chip:
     chip = resting()
-    chip.mishaps = [(AT_US, mishap)]
+    chip.mishaps = [(MISHAP_US, mishap)]
     run_built(tools, root, chip, until_ms)
     return chip
 
@@ -84,7 +92,7 @@ def test_it_comes_up_disarmed_within_a_second_and_tells_why(
     assert [report["state"] for report in reports(chip)] == [0, 0]
     assert reasons_of(pymavlink, chip) == [cause]
     # A bite of the watchdog takes 50 ms; all else is at once.
-    assert chip.reset_us[0] - AT_US < 60_000
+    assert chip.reset_us[0] - MISHAP_US < 60_000
 
 
 def test_power_is_no_news(tools: Toolchain, images: Path, pymavlink: Any) -> None:
@@ -106,7 +114,7 @@ def test_without_its_clock_it_stays_safe(tools: Toolchain, images: Path) -> None
 def test_it_stays_safe_behind_a_fault_at_its_start(tools: Toolchain, images: Path) -> None:
     """Or fault would follow fault for ever: RST-001."""
     chip = resting()
-    chip.mishaps = [(AT_US, "fault"), (AT_US + 700_000, "fault")]
+    chip.mishaps = [(MISHAP_US, "fault"), (MISHAP_US + 700_000, "fault")]
     run_built(tools, images, chip, 3200)
     assert chip.text.count("Keel on fmuv5: copter") == 2
     assert "start by: fault\r\n" in chip.text

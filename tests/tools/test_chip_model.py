@@ -17,12 +17,10 @@ from itertools import pairwise
 from pathlib import Path
 
 from keel.boards import chip, chip_model, firmware, stack
-from keel.boards.board import read_board
 from keel.boards.card import SdCard
 from keel.boards.chip import PWR, RCC, Chip, ModelError
 from keel.boards.fram import Fram
 from keel.boards.ms5611 import check_of
-from keel.boards.processor import Processor
 from keel.boards.pulses import Pulse, State
 from keel.boards.rebuilt import SOURCES
 from keel.boards.sockets import pin_of, read_sockets
@@ -294,13 +292,11 @@ int main(void)
 """
 
 
-class SmallApplication(unittest.TestCase):
-    """A copy of the sources, with an application for one thing."""
+class KeptTest(unittest.TestCase):
+    """What is kept in the chip's flash, or the board's memory, is there after a reset."""
 
     tools: Toolchain
-    root: Path
-    NAME: str  # Of its folder in examples.
-    MAIN: str
+    root: Path  # A copy of the sources, with the program.
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -309,18 +305,8 @@ class SmallApplication(unittest.TestCase):
         cls.root = Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
         for part in SOURCES:
             shutil.copytree(ROOT / part, cls.root / part)
-        (cls.root / "examples" / cls.NAME).mkdir()
-        (cls.root / "examples" / cls.NAME / "main.c").write_text(cls.MAIN)
-
-
-class KeptTest(SmallApplication):
-    """What is kept in the chip's flash, or the board's memory, is there after a reset."""
-
-    NAME, MAIN = "keeper", KEEPER
-
-    @classmethod
-    def setUpClass(cls) -> None:
-        super().setUpClass()
+        (cls.root / "examples/keeper").mkdir()
+        (cls.root / "examples/keeper/main.c").write_text(KEEPER)
         for board in WIRINGS:
             with contextlib.redirect_stdout(io.StringIO()):
                 firmware.build(cls.tools, board, ["examples/keeper"], cls.root)
@@ -338,188 +324,6 @@ class KeptTest(SmallApplication):
         self.assertEqual(found[1:], [("0", str(starts)) for starts in range(1, len(found))])
         # The run may end within the hold before a reset.
         self.assertIn(board.text.count("save 0") - board.resets, (0, 1))
-
-
-PULSER = """\
-#include "board.h"
-#include "stm32f767/target/chip.h"
-
-#include <stddef.h>
-
-static uint32_t turns KEEL_REALTIME_ZERO; /* The board's file asks for something of the kind. */
-
-static void wait(uint32_t us)
-{
-    const uint32_t start_us = keel_board_clock_us(NULL);
-
-    while ((keel_board_clock_us(NULL) - start_us) < us) {
-        turns++;
-    }
-}
-
-static void set_all(uint32_t first_us, uint32_t step_us)
-{
-    for (uint32_t i = 0u; i < keel_chip_output_count(); i++) {
-        (void)keel_chip_pulse(i, first_us + (step_us * i));
-    }
-}
-
-/* Pulses that tell the outputs apart; then off, and on again, which forgets them; one that is too
- * long; others; and all anew. */
-int main(void)
-{
-    wait(100u);
-    set_all(1000u, 100u);
-    wait(5300u);
-    keel_chip_arm();
-    wait(6000u);
-    keel_chip_arm();
-    wait(6000u);
-    keel_board_outputs_off();
-    wait(1000u);
-    keel_chip_arm();
-    wait(6000u);
-    set_all(2101u, 0u);
-    wait(6000u);
-    set_all(1500u, 0u);
-    wait(6000u);
-    keel_chip_reset();
-}
-"""
-
-
-class PulsesTest(SmallApplication):
-    """What comes out of which socket; and mistakes in the boards' code, each noticed."""
-
-    NAME, MAIN = "pulser", PULSER
-
-    def builder(self, name: str) -> firmware.Builder:
-        return firmware.Builder(
-            self.tools, read_board(self.root, name), self.root / "build" / name, self.root
-        )
-
-    def check(self, builder: firmware.Builder) -> None:
-        """Run the program once, up to its reset, 36.4 ms after its start, and past it; look at what
-        each output did."""
-        board = builder.board
-        image = builder.link("keel", builder.objects(["examples/pulser"]))
-        sockets = read_sockets(ROOT)[board.name]
-        count = len(sockets.outputs)
-        self.assertEqual(count, {"nucleo_f767zi": 4}.get(board.name, 8))
-        model = Chip(WIRINGS[board.name], "", sockets.watched)
-        Processor(self.tools, image.binary.read_bytes(), board.load_address, model).run(65_000)
-        for number, log in enumerate(model.outputs.log[:count]):
-            expected = [
-                "floats",
-                "low",
-                Pulse(1000 + 100 * number, 2500),
-                "low",
-                Pulse(1500, 2500),
-                "low",
-                "floats",
-                "low",
-            ]
-            self.assertEqual([state for _, state in log][: len(expected)], expected, number)
-            self.assertEqual(log[1][0], 0, "low from the reset on")
-            self.assertGreaterEqual(log[6][0] - log[5][0], 6000, "the hold before a reset")
-        for log in model.outputs.log[count:]:  # Low from arming until the outputs are off.
-            states = [state for _, state in log]
-            self.assertEqual(states[:5], ["floats", "low", "floats", "low", "floats"])
-            first = model.outputs.log[0]
-            self.assertLessEqual(log[1][0], first[2][0])
-            self.assertEqual([log[2][0], log[4][0]], [first[3][0], first[5][0]])
-
-    def test_pulses_come_out_of_their_sockets(self) -> None:
-        for name in WIRINGS:
-            with self.subTest(name):
-                self.check(self.builder(name))
-
-    MISTAKES = (
-        (
-            "bsp/fmuv5/pins.c",
-            "KEEL_OUTPUT(E, 14u, 1u, TIM1, CH4)",
-            "KEEL_OUTPUT(E, 14u, 1u, TIM1, CH1)",
-        ),
-        (
-            "bsp/fmuv5/pins.c",
-            "KEEL_OUTPUT(H, 6u, 9u, TIM12, CH1)",
-            "KEEL_OUTPUT(H, 6u, 2u, TIM12, CH1)",
-        ),
-        ("bsp/fmuv5/pins.c", ".output_count = 8u", ".output_count = 7u"),
-        ("bsp/fmuv5/pins.c", "KEEL_ARMED(I, 0u)", "KEEL_ARMED(I, 1u)"),
-        ("bsp/stm32f767/target/chip.c", "tell_armed(true);", ""),
-        (
-            "bsp/stm32f767/target/chip.c",
-            "keel_pwm_off(PINS->outputs, PINS->output_count);\n tell_armed(false);",
-            "keel_pwm_off(PINS->outputs, PINS->output_count);",
-        ),
-        ("bsp/stm32f767/target/chip.c", "keel_bits_enable(clocks[i].enable, clocks[i].bit);", ""),
-        (
-            "bsp/stm32f767/target/chip.c",
-            "RCC_APB1ENR_TIM12EN, false}",
-            "RCC_APB1ENR_TIM12EN, true}",
-        ),
-        (
-            "bsp/stm32f767/target/chip.c",
-            "{(keel_tim_t *)TIM12_BASE, 2u, false}",
-            "{(keel_tim_t *)TIM12_BASE, 4u, false}",
-        ),
-        (
-            "bsp/stm32f767/target/chip.c",
-            "{(keel_tim_t *)TIM4_BASE, 4u, false}",
-            "{(keel_tim_t *)TIM4_BASE, 4u, true}",
-        ),
-        (
-            "bsp/stm32f767/target/chip.c",
-            "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
-            "(void)PINS->outputs[i].pin;",
-        ),
-        (
-            "bsp/stm32f767/target/chip.c",
-            "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
-            "keel_pin_output(PINS->outputs[i].pin, KEEL_DRIVE_PUSH_PULL, true);",
-        ),
-        ("bsp/stm32f767/target/chip.c", "#define HOLD_TURNS 1296000u", "#define HOLD_TURNS 12960u"),
-        ("bsp/stm32f767/target/chip.c", "#define PWM_RATE_HZ 400u", "#define PWM_RATE_HZ 399u"),
-        ("bsp/cortex_m7/reset.c", "keel_board_outputs_hold();", ""),
-        ("bsp/cortex_m7/reset.c", "keel_board_outputs_off();", ""),
-        (
-            "bsp/stm32f767/pwm.c",
-            "keel_pin_output(outputs[i].pin, KEEL_DRIVE_PUSH_PULL, false);",
-            "(void)outputs[i].pin;",
-        ),
-        ("bsp/stm32f767/pwm.c", "*pulse_of(output->timer, output->channel) = 0u;", ""),
-        ("bsp/stm32f767/pwm.c", "output->timer->tim->EGR = TIM_EGR_UG;", ""),
-        ("bsp/stm32f767/pwm.c", "if (keel_pin_is_alternate(outputs[0].pin)) {", "if (false) {"),
-        ("bsp/stm32f767/pwm.c", "GATE_SHUT | TIM_BDTR_MOE;", "GATE_SHUT;"),
-        (
-            "bsp/stm32f767/pwm.c",
-            "FIELD(TIM_CCMR1_OC1M, PWM_MODE_1) | TIM_CCMR1_OC1PE",
-            "FIELD(TIM_CCMR1_OC1M, PWM_MODE_1)",
-        ),
-        ("bsp/stm32f767/pwm.c", "TIM_CCER_CC1E | TIM_CCER_CC2E;", "TIM_CCER_CC1E;"),
-        ("bsp/stm32f767/pwm.c", "TIM_CR1_ARPE | TIM_CR1_CEN", "TIM_CR1_ARPE"),
-    )
-
-    def test_mistakes_in_the_boards_code_are_noticed(self) -> None:
-        """Each is put into the sources, built and run; the tests above must fail."""
-        builder = self.builder("fmuv5")
-        self.check(builder)
-        for path, old, new in self.MISTAKES:
-            with self.subTest(f"{path}: {old} -> {new}"):
-                file = self.root / path
-                text = file.read_text()
-                plain = re.sub(r" +", " ", text)  # However it is laid out.
-                self.assertEqual(plain.count(old), 1)
-                file.write_text(plain.replace(old, new))
-                try:
-                    builder.build.made.pop((path,), None)
-                    builder.object(path)
-                    with self.assertRaises((AssertionError, ModelError)):
-                        self.check(builder)
-                finally:
-                    file.write_text(text)
-                    builder.build.made.pop((path,), None)
 
 
 class BoardTest(unittest.TestCase):

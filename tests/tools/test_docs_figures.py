@@ -377,6 +377,11 @@ FIGURES: tuple[Figure, ...] = (
         r"(\d+) facts have no counterpart",
         lambda: (str(len(toml_of("specs/registers.toml")["absent"])),),
     ),
+    Figure(
+        "docs/boards.md",
+        r"tries (\d+) mistakes in the boards' code",
+        lambda: (str(len(toml_of("tests/target/mistakes.toml")["mistake"])),),
+    ),
     Figure("docs/ci.md", r"(\d+) machines prove a part each", shards),
     Figure(
         "docs/fuzzing.md",

@@ -13,18 +13,24 @@ import unittest
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 from evidence_sample import STAMP, PartTest
 
 from keel.base.errors import ToolError
+from keel.base.files import write_text
 from keel.base.source import PRODUCT
 from keel.base.source import STAMP as MADE_FROM
+from keel.base.verdict_cache import Cache
 from keel.gather.part import Context
 from keel.gather.parts import tools as part_tools
 from keel.gather.parts.tools import SETTINGS, Settings
 from keel.install import Found, Toolchain
 from keel.install.lock import Spec
 from keel.qualify import command as qualify
+from keel.qualify import mistakes
+from keel.qualify.board_trials import TRIALS
+from keel.qualify.mistakes import TABLE, read_mistakes
 from keel.qualify.seeds import SEEDS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -206,7 +212,8 @@ class Qualify(unittest.TestCase):
 
     def qualify(self, **changes: str) -> tuple[int, dict[str, Any]]:
         with contextlib.redirect_stdout(io.StringIO()):
-            status = qualify.main([], self.root, [replace(self.gappa, **changes)], self.known)
+            seeds = [replace(self.gappa, **changes)]
+            status = qualify.main([], self.root, seeds, self.known, [])
         report = json.loads((self.root / qualify.REPORT).read_text())
         assert isinstance(report, dict)
         return status, report
@@ -232,3 +239,37 @@ class Qualify(unittest.TestCase):
         self.assertEqual(len({seed.name for seed in SEEDS}), len(SEEDS))
         for seed in SEEDS:
             self.assertNotEqual(seed.faulty, seed.text)
+
+
+class Mistakes(unittest.TestCase):
+    """The table of mistakes in the boards' code; tests/flight/test_board_trials.py tries one."""
+
+    def test_each_can_be_put_into_its_file_and_each_trial_has_some(self) -> None:
+        self.assertEqual({one.trial for one in read_mistakes()}, set(TRIALS))
+
+    def test_a_trial_that_the_right_code_fails_shows_nothing(self) -> None:
+        known = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")))
+        tools = mock.Mock(**{"versions.return_value": {mistakes.TOOL: cbmc()["cbmc"]}})
+        said = iter(["the right code fails: 1 != 2", ""])
+        with (
+            mock.patch.object(mistakes, "answers", return_value=said),
+            contextlib.redirect_stdout(io.StringIO()),
+        ):
+            [row] = mistakes.rows(tools, read_mistakes()[:1], Cache(known))
+        self.assertEqual(row["wrong"], "the right code fails: 1 != 2")
+        self.assertEqual(list(known.iterdir()), [])
+
+    def test_what_cannot_be_put_in_is_refused_with_its_line(self) -> None:
+        first = "[[mistake]]" + (ROOT / TABLE).read_text().split("\n[[mistake]]")[1]
+        path = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="keel-test-")), "x.toml")
+        for old, new, told in (
+            ("E, 14u, 1u, TIM1, CH4", "E, 14u, 1u, TIM1, CH5", "old: stands 0 times in bsp/fmuv5"),
+            ("KEEL_OUTPUT(E, 14u, 1u, TIM1, CH4)", "KEEL_OUTPUT(", "old: stands 8 times in bsp/"),
+            ("outputs", "output", "trial: there is none; there are outputs, port"),
+        ):
+            write_text(path, first.replace(old, new, 1))
+            with self.assertRaisesRegex(ToolError, rf"x\.toml:\d+: .*{told}"):
+                read_mistakes(path)
+        write_text(path, f"{first}\n{first}")
+        with self.assertRaisesRegex(ToolError, "stands twice"):
+            read_mistakes(path)

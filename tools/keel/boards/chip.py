@@ -83,6 +83,8 @@ RESETS = {
     SCB + 0x90: 0x800,
 }
 
+TIME_BASE = TIM5 + 0x24  # Its counter.
+SPI_DATA = (SPI1 + 0xC, SPI2 + 0xC, SPI4 + 0xC)
 # Peripherals that the model knows to need their clocks: the register, and the bit.
 CLOCKED = {timer.base: timer.enable for timer in timers().values()}
 OPTION_KEYS = [0x0819_2A3B, 0x4C5D_6E7F]
@@ -290,18 +292,18 @@ class Chip:
 
     def read(self, address: int) -> int:
         """What a register reads."""
+        if address == TIME_BASE:  # First, as nothing is read so often.
+            self.tick(self.step_us)
+            return (self.time_us - self.counter_from_us) & 0xFFFF_FFFF
         base = self.block(address)
         if base in self.attached.blocks:
             return self._attached(base, address - base, None)
-        if address == TIM5 + 0x24:
-            self.tick(self.step_us)
-            return (self.time_us - self.counter_from_us) & 0xFFFF_FFFF
         if address == self.console + 0x1C:
             due = bool(self.keys) and self.keys[0][0] <= self.time_us
             return self.words[address] | (0x20 if due else 0)
         if address == self.console + 0x24 and self.keys:
             return ord(self.keys.pop(0)[1])
-        if address in (SPI1 + 0xC, SPI2 + 0xC, SPI4 + 0xC):
+        if address in SPI_DATA:
             self.words[address - 4] &= ~1
         if address in (ADC1, ADC1 + 0x4C):
             return self._adc_read(address - ADC1)

@@ -6,6 +6,7 @@
 
 Each fault stands beside the same text without it (tools/keel/qualify/seeds.py). A tool passes when
 it complains of the fault, by the name under which the fault is known, and does not so without it.
+The model of the chip is asked about mistakes in the boards' code (tests/target/mistakes.toml).
 A new version of a tool, another file of it, or another way to ask is asked anew; what is known lies
 in the user's cache, for all clones. build/qualify/report.json has what became of each fault. What
 the project makes of a tool's words is tested elsewhere: specs/tools.toml names these tests.
@@ -26,6 +27,7 @@ from keel.base.files import sha256_of
 from keel.base.source import digest_of_tree, write_report
 from keel.base.verdict_cache import Cache, digest
 from keel.install import Found, Toolchain
+from keel.qualify import mistakes as chip
 from keel.qualify.deceptions import SEEDS as DECEPTIONS
 from keel.qualify.seeds import SEEDS, Seed
 from keel.qualify.trials import ask
@@ -117,6 +119,7 @@ def main(
     root: Path = ROOT,
     seeds: Sequence[Seed] = (*SEEDS, *DECEPTIONS),
     known: Path | None = None,
+    mistakes: Sequence[chip.Mistake] | None = None,
 ) -> int:
     """Entry point."""
     parser = Parser("Show that each tool detects what it is trusted to detect.", "qualify")
@@ -125,10 +128,11 @@ def main(
 
     def work() -> int:
         (root / REPORT).unlink(missing_ok=True)
+        seeded = chip.read_mistakes() if mistakes is None else mistakes
         tools = Toolchain()
         tools.ensure(*GROUPS)
         cache = Cache(known or tools.cache.folder / KNOWN, options.fresh)
-        runs = qualify(tools, seeds, cache)
+        runs = [*qualify(tools, seeds, cache), *chip.rows(tools, seeded, cache)]
         cache.prune()
         failed = [one for one in runs if one["wrong"]]
         problems = [f"{one['tool']}: {one['fault']}: {one['wrong']}" for one in failed]

@@ -22,7 +22,7 @@ from keel.prove.verdict_keys import ASKERS, judges
 SETTINGS = "specs/tools.toml"
 QUALIFY = "qualify/report.json"
 # What the evidence is made with; what installs tools or only starts them is not among them.
-GROUPS = ("prove", "lint", "test", "coverage", "bench", "firmware", "stack", "target")
+GROUPS = ("prove", "lint", "test", "coverage", "bench", "firmware", "stack", "target", "model")
 HELPERS = ("pip", "why3-config")
 # Reports that tell with which versions they were made, and of which tools by the lock's names.
 VERSIONED = (
