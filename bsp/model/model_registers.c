@@ -55,8 +55,10 @@
 #define KEY_START 0xCCCCu
 #define LSI_KHZ   32u
 
-#define BYTE_TICKS (MODEL_TICKS_PER_US * 87u) /* Of the console, at 115200 baud. */
-#define CONVERT    12u                        /* Cycles beside those to sample. */
+#define BYTE_TICKS 37500u /* Of a character of the console, at 115200 baud. */
+#define UNREADABLE '?'
+#define DIVIDES    4u  /* The codes of a bus's divisor, from 2 on. */
+#define CONVERT    12u /* Cycles beside those to sample. */
 
 typedef uint32_t (*model_reader_t)(uint32_t offset);
 typedef void (*model_writer_t)(uint32_t offset, uint32_t value);
@@ -97,7 +99,8 @@ uint32_t model_chip[MODEL_CHIP_SIZE / sizeof(uint32_t)];
 uint32_t model_core[MODEL_CORE_SIZE / sizeof(uint32_t)];
 uint32_t model_instruction_ticks;
 
-static uint64_t counted_from; /* When TIM 5 was 0. */
+static uint64_t counted_from; /* When TIM 5 was 0, … */
+static uint64_t count_ticks;  /* … and for how long it has each count. */
 static uint64_t looked_at;    /* When the clock was read last, and how often in a row. */
 static uint32_t looks;
 static bool sleeps;            /* SysTick counts, … */
@@ -185,6 +188,14 @@ static void write_pwr(uint32_t offset, uint32_t value)
     }
 }
 
+/* Of APB 1, a clock. */
+static uint32_t apb1_ticks(void)
+{
+    const uint32_t code = keel_bits_get(*rcc_word(offsetof(keel_rcc_t, CFGR)), RCC_CFGR_PPRE1);
+
+    return model_instruction_ticks * ((code < DIVIDES) ? 1u : (2u << (code - DIVIDES)));
+}
+
 /* --- The clock, sleep, and the watchdog. --- */
 
 /* Who reads nothing but the clock waits for it: the next microsecond comes at once. */
@@ -197,18 +208,35 @@ static uint32_t read_clock(uint32_t offset)
     if (looks >= POLLS) {
         const uint64_t passed = model_now() - counted_from;
 
-        (void)model_wait(counted_from +
-                         (((passed / MODEL_TICKS_PER_US) + 1u) * MODEL_TICKS_PER_US));
+        (void)model_wait(counted_from + (((passed / count_ticks) + 1u) * count_ticks));
     }
     looked_at = model_now();
-    return (uint32_t)((model_now() - counted_from) / MODEL_TICKS_PER_US);
+    return (uint32_t)((model_now() - counted_from) / count_ticks);
+}
+
+/* Timers have twice the clock of their bus, where that is divided (RM0410, 5.2). */
+static void start_count(void)
+{
+    const uint32_t bus = apb1_ticks();
+    const uint32_t timer = (bus > model_instruction_ticks) ? (bus / 2u) : bus;
+
+    counted_from = model_now();
+    count_ticks = (uint64_t)timer * (*model_word(TIM5_BASE + offsetof(keel_tim_t, PSC)) + 1u);
+    if ((*rcc_word(offsetof(keel_rcc_t, APB1ENR)) & RCC_APB1ENR_TIM5EN) == 0u) {
+        model_fail("TIM 5 is used without its clock");
+    } else if (count_ticks != MODEL_TICKS_PER_US) {
+        model_fail("TIM 5 counts each %u ns, not each microsecond",
+                   (unsigned)((count_ticks * 1000u) / MODEL_TICKS_PER_US));
+    } else {
+        /* It is a clock. */
+    }
 }
 
 static void write_clock(uint32_t offset, uint32_t value)
 {
     *model_word(TIM5_BASE + offset) = value;
     if ((offset == offsetof(keel_tim_t, EGR)) && ((value & TIM_EGR_UG) != 0u)) {
-        counted_from = model_now();
+        start_count();
     }
 }
 
@@ -401,6 +429,21 @@ static void write_adc(uint32_t offset, uint32_t value)
 
 /* --- The console. --- */
 
+/* Ticks of a character on the line, of 10 bits. */
+static uint64_t character_ticks(void)
+{
+    return 10u * (uint64_t)apb1_ticks() * *model_word(UART7_BASE + offsetof(keel_uart_t, BRR));
+}
+
+/* Whoever listens has 115200 baud, and reads nothing that is off by more than a fiftieth. */
+static char heard(uint32_t value)
+{
+    const uint64_t ticks = character_ticks();
+    const uint64_t off = (ticks > BYTE_TICKS) ? (ticks - BYTE_TICKS) : (BYTE_TICKS - ticks);
+
+    return ((off * 50u) <= BYTE_TICKS) ? (char)value : UNREADABLE;
+}
+
 static uint32_t read_console(uint32_t offset)
 {
     const uint64_t now = model_now();
@@ -408,7 +451,7 @@ static uint32_t read_console(uint32_t offset)
     if (offset != offsetof(keel_uart_t, ISR)) {
         return *model_word(UART7_BASE + offset);
     }
-    return ((said_until <= (now + BYTE_TICKS)) ? UART_ISR_TXE : 0u) |
+    return ((said_until <= (now + character_ticks())) ? UART_ISR_TXE : 0u) |
            ((said_until <= now) ? UART_ISR_TC : 0u);
 }
 
@@ -416,12 +459,12 @@ static void write_console(uint32_t offset, uint32_t value)
 {
     *model_word(UART7_BASE + offset) = value;
     if (offset == offsetof(keel_uart_t, TDR)) {
-        said_until = ((said_until > model_now()) ? said_until : model_now()) + BYTE_TICKS;
+        said_until = ((said_until > model_now()) ? said_until : model_now()) + character_ticks();
         if (said == MODEL_TEXT) { /* The older half goes. */
             said = MODEL_TEXT / 2u;
             memmove(text, &text[MODEL_TEXT - said], said);
         }
-        text[said] = (char)value;
+        text[said] = heard(value);
         said++;
     }
 }
@@ -646,6 +689,7 @@ void model_registers_reset(model_cause_t cause)
     *rcc_word(offsetof(keel_rcc_t, CSR)) = flags;
     make_pages();
     counted_from = model_now();
+    count_ticks = MODEL_TICKS_PER_US;
     starves_after = 0u;
     said_until = model_now();
     looks = 0u;

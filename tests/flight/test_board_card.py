@@ -32,7 +32,11 @@ __all__ = ["flown", "made", "tools"]  # Fixtures.
 ENDS_S = 9.5
 FAULT_S = 5.0  # Both scenarios'.
 RING_MS = 89  # So much of the log the ring holds (docs/copter.md).
-CHIP = "bsp/stm32f767/target/chip.c"
+CHIP, BASE, MAIN = (
+    "bsp/stm32f767/target/chip.c",
+    "bsp/stm32f767/time_base.c",
+    "examples/copter_on_board/main.c",
+)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -125,25 +129,50 @@ def test_a_slot_without_a_card_has_no_faults(copter: BoardCopter) -> None:
         (CHIP, "keel_chip_give(slot->command, KEEL_PULL_UP);", "", "a pin is not its own"),
         (CHIP, "RCC_APB2ENR_SDMMC1EN);", "RCC_APB2ENR_ADC1EN);", "has no clock of 48 MHz"),
         ("bsp/stm32f767/sdmmc.c", "FOUR_LINES : 0u)", "0u : 0u)", "use other lines"),
+        (BASE, "tim->PSC = prescaler;", "tim->PSC = prescaler + 1u;", "TIM 5 counts each 1009 ns"),
+        (CHIP, "RCC_APB1ENR_TIM5EN);", "RCC_APB1ENR_TIM4EN);", "TIM 5 is used without its clock"),
+        (
+            MAIN,
+            "start_telemetry();",
+            "start_telemetry(); ((void (*)(void))0x20010001u)();",
+            "executes the page",
+        ),
     ],
 )
 def test_the_model_refuses(
     made: Path, tools: Toolchain, tmp_path: Path, path: str, old: str, new: str, why: str
 ) -> None:
     """A clock beyond the card's, a pin of its slot, its block's clock, and fewer lines than the
-    card has."""
-    root = made.parent.parent / "root"
-    board = read_board(root, "fmuv5")
-    builder = firmware.Builder(tools, board, root / "build/card", root)
-    parts = application_of(board, "copter").application
-    mistake = Mistake(trial="lines", file=path, old=old, new=new)
-    assert mistake.text().count(old) == 1
-    builder.build.made[(path,)] = mistaken(builder, mistake, tmp_path / "wrong")
-    image = builder.link("keel", [*builder.objects(parts), *builder.fatfs()])
-    told = {"elf": str(image.elf), "binary": str(image.binary), "address": board.load_address}
-    write_json(tmp_path / flying_board.IMAGE, told)
-    copter = BoardCopter(shutil.copy(made, tmp_path / made.name))
+    card has; a wrong prescaler of the clock, or none of its bus; code where there are data."""
+    copter = wrong_image(made, tools, tmp_path, Mistake(trial="lines", file=path, old=old, new=new))
     copter.insert(new_card(tools))
     copter.start(100, False)
     assert rest(copter, 0, 1500) == 1
     assert why in copter.why(0)
+
+
+def test_who_listens_at_another_rate_reads_nothing(
+    made: Path, tools: Toolchain, tmp_path: Path
+) -> None:
+    """The console's bits take the time that its divisor says: at 3 % more they are not read."""
+    mistake = Mistake(
+        trial="lines", file=CHIP, old="#define BAUD 115200u", new="#define BAUD 118700u"
+    )
+    copter = wrong_image(made, tools, tmp_path, mistake)
+    copter.start(100, False)
+    assert rest(copter, 0, 700) == 0
+    assert set(copter.text()) == {"?"}
+
+
+def wrong_image(made: Path, tools: Toolchain, tmp_path: Path, mistake: Mistake) -> BoardCopter:
+    """A copter whose image has a mistake."""
+    root = made.parent.parent / "root"
+    board = read_board(root, "fmuv5")
+    builder = firmware.Builder(tools, board, root / "build/card", root)
+    parts = application_of(board, "copter").application
+    assert mistake.text().count(mistake.old) == 1
+    builder.build.made[(mistake.file,)] = mistaken(builder, mistake, tmp_path / "wrong")
+    image = builder.link("keel", [*builder.objects(parts), *builder.fatfs()])
+    told = {"elf": str(image.elf), "binary": str(image.binary), "address": board.load_address}
+    write_json(tmp_path / flying_board.IMAGE, told)
+    return BoardCopter(shutil.copy(made, tmp_path / made.name))
