@@ -170,6 +170,9 @@ static inline uint32_t *model_word(uint32_t address)
 /** Whether a pin is an output that is low. */
 bool model_pin_is_low(uint32_t port, uint32_t pin);
 
+/** Whether it is one that is high. */
+bool model_pin_is_high(uint32_t port, uint32_t pin);
+
 /** Whether a pin has an alternate function, and which. */
 bool model_pin_has(uint32_t port, uint32_t pin, uint32_t function);
 

@@ -4,7 +4,6 @@
  * data take the time that the bus needs; the processor moves the data through the FIFO. */
 #include "model.h"
 
-#include "stm32f767/registers/gpio.h"
 #include "stm32f767/registers/rcc.h"
 #include "stm32f767/registers/sdmmc.h"
 
@@ -54,7 +53,6 @@
 #define CARD_FUNCTION 12u
 #define POWER_PORT    6u
 #define POWER_PIN     7u
-#define PORT_SIZE     0x400u
 
 typedef enum card_state {
     IDLE,
@@ -550,15 +548,6 @@ static bool has_pins(void)
     return all;
 }
 
-static bool has_supply(void)
-{
-    const uint32_t port = GPIOA_BASE + (PORT_SIZE * POWER_PORT);
-    const uint32_t mode = *model_word(port + offsetof(keel_gpio_t, MODER)) >> (2u * POWER_PIN);
-    const uint32_t level = *model_word(port + offsetof(keel_gpio_t, ODR)) >> POWER_PIN;
-
-    return ((mode & 3u) == 1u) && ((level & 1u) != 0u);
-}
-
 /* The clock of 48 MHz that the PLL makes of the crystal's 16. */
 static bool has_clock(void)
 {
@@ -587,7 +576,7 @@ static void check_slot(void)
         model_fail("a command goes to the card, but SDMMC1 has no clock of 48 MHz");
     } else if (!has_pins()) {
         model_fail("a command goes to the card, but a pin is not its own");
-    } else if (!has_supply() || (power != POWER_ON)) {
+    } else if (!model_pin_is_high(POWER_PORT, POWER_PIN) || (power != POWER_ON)) {
         model_fail("a command goes to the card, but its supply is off");
     } else if (((clock & SDMMC_CLKCR_CLKEN) == 0u) ||
                (is_card_there() && ((KERNEL_HZ / divisor) > limit))) {

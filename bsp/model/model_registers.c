@@ -327,10 +327,20 @@ static uint32_t mode_of(uint32_t port, uint32_t pin)
     return (port_word(port, offsetof(keel_gpio_t, MODER)) >> (2u * pin)) & 3u;
 }
 
-bool model_pin_is_low(uint32_t port, uint32_t pin)
+static bool is_driven(uint32_t port, uint32_t pin, uint32_t level)
 {
     return (mode_of(port, pin) == 1u) &&
-           (((port_word(port, offsetof(keel_gpio_t, ODR)) >> pin) & 1u) == 0u);
+           (((port_word(port, offsetof(keel_gpio_t, ODR)) >> pin) & 1u) == level);
+}
+
+bool model_pin_is_low(uint32_t port, uint32_t pin)
+{
+    return is_driven(port, pin, 0u);
+}
+
+bool model_pin_is_high(uint32_t port, uint32_t pin)
+{
+    return is_driven(port, pin, 1u);
 }
 
 bool model_pin_has(uint32_t port, uint32_t pin, uint32_t function)

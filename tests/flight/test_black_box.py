@@ -5,10 +5,8 @@ another's file system and another's reader find there is all but the last second
 from __future__ import annotations
 
 import ctypes
-import importlib
 import io
 import struct
-import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator
@@ -23,6 +21,7 @@ from pyulog import ULog
 from keel.base.errors import ROOT
 from keel.base.run import output_of
 from keel.flight import library, loop, scenario
+from keel.flight.card import file_system, format_card, opened
 from keel.flight.library import Copter
 from keel.flight.loop import Order
 from keel.install import Toolchain
@@ -110,15 +109,7 @@ const uint8_t *sector(uint32_t n) { return written + (size_t)n * 512u; }
 @pytest.fixture(scope="module")
 def pyfatfs() -> tuple[Any, Any]:
     """Another's file system: the class that formats, and the one that reads."""
-    tools = Toolchain()
-    tools.ensure("card")
-    sys.path.append(tools.command("card-packages")[0])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # Its own imports are of another time.
-        return (
-            importlib.import_module("pyfatfs.PyFat").PyFat,
-            importlib.import_module("pyfatfs.PyFatFS").PyFatBytesIOFS,
-        )
+    return file_system(Toolchain())
 
 
 OTHERS = {
@@ -142,10 +133,7 @@ def new_card(pyfatfs: tuple[Any, Any], kind: str, size: int) -> bytes:
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore", ResourceWarning)
         path = Path(folder) / "card.img"
-        path.write_bytes(bytes(size))
-        maker = fat()
-        maker.mkfs(str(path), fat_type=getattr(fat, f"FAT_TYPE_{kind}"), size=size)
-        maker.close()
+        format_card(fat, path, kind, size)
         memory = Memory(path.read_bytes())
         card = system(memory)
         card.makedir("/PHOTOS")
@@ -157,11 +145,8 @@ def new_card(pyfatfs: tuple[Any, Any], kind: str, size: int) -> bytes:
 
 def files_of(pyfatfs: tuple[Any, Any], image: bytes, offset: int = 0) -> dict[str, bytes]:
     """All files of a card, as pyfatfs reads them."""
-    card = pyfatfs[1](io.BytesIO(image), offset=offset)
-    try:
+    with opened(pyfatfs[1], io.BytesIO(image), offset) as card:
         return {name: card.readbytes(name) for name in card.walk.files()}
-    finally:
-        card.fs.is_read_only = True  # Its end would write.
 
 
 @dataclass

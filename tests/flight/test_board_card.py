@@ -59,6 +59,13 @@ def record(copter: BoardCopter, tools: Toolchain, name: str) -> Recorded:
     return Recorded(trace, text, ULog(io.BytesIO(log_of(tools, card))))
 
 
+@pytest.fixture(scope="module")
+def builder(made: Path, tools: Toolchain) -> firmware.Builder:
+    """All that is right is built once."""
+    root = made.parent.parent / "root"
+    return firmware.Builder(tools, read_board(root, "fmuv5"), root / "build/card", root)
+
+
 @pytest.fixture
 def copter(flown: BoardCopter) -> Iterator[BoardCopter]:
     """With an empty slot afterwards."""
@@ -136,11 +143,19 @@ def test_a_slot_without_a_card_has_no_faults(copter: BoardCopter) -> None:
     ],
 )
 def test_the_model_refuses(
-    made: Path, tools: Toolchain, tmp_path: Path, path: str, old: str, new: str, why: str
+    made: Path,
+    builder: firmware.Builder,
+    tools: Toolchain,
+    tmp_path: Path,
+    path: str,
+    old: str,
+    new: str,
+    why: str,
 ) -> None:
     """A clock beyond the card's, a pin of its slot, its block's clock, and fewer lines than the
     card has; a wrong prescaler of the clock, or none of its bus; code where there are data."""
-    copter = wrong_image(made, tools, tmp_path, Mistake(trial="lines", file=path, old=old, new=new))
+    mistake = Mistake(trial="lines", file=path, old=old, new=new)
+    copter = wrong_image(made, builder, tmp_path, mistake)
     copter.insert(new_card(tools))
     copter.start(100, False)
     assert rest(copter, 0, 1500) == 1
@@ -148,27 +163,32 @@ def test_the_model_refuses(
 
 
 def test_who_listens_at_another_rate_reads_nothing(
-    made: Path, tools: Toolchain, tmp_path: Path
+    made: Path, builder: firmware.Builder, tmp_path: Path
 ) -> None:
     """The console's bits take the time that its divisor says: at 3 % more they are not read."""
     mistake = Mistake(
         trial="lines", file=CHIP, old="#define BAUD 115200u", new="#define BAUD 118700u"
     )
-    copter = wrong_image(made, tools, tmp_path, mistake)
+    copter = wrong_image(made, builder, tmp_path, mistake)
     copter.start(100, False)
     assert rest(copter, 0, 700) == 0
     assert set(copter.text()) == {"?"}
 
 
-def wrong_image(made: Path, tools: Toolchain, tmp_path: Path, mistake: Mistake) -> BoardCopter:
+def wrong_image(
+    made: Path, builder: firmware.Builder, tmp_path: Path, mistake: Mistake
+) -> BoardCopter:
     """A copter whose image has a mistake."""
-    root = made.parent.parent / "root"
-    board = read_board(root, "fmuv5")
-    builder = firmware.Builder(tools, board, root / "build/card", root)
-    parts = application_of(board, "copter").application
     assert mistake.text().count(mistake.old) == 1
-    builder.build.made[(mistake.file,)] = mistaken(builder, mistake, tmp_path / "wrong")
-    image = builder.link("keel", [*builder.objects(parts), *builder.fatfs()])
-    told = {"elf": str(image.elf), "binary": str(image.binary), "address": board.load_address}
+    objects = builder.build.made
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(objects, (mistake.file,), mistaken(builder, mistake, tmp_path / "wrong"))
+        parts = application_of(builder.board, "copter").application
+        image = builder.link("keel", [*builder.objects(parts), *builder.fatfs()])
+    told = {
+        "elf": str(image.elf),
+        "binary": str(image.binary),
+        "address": builder.board.load_address,
+    }
     write_json(tmp_path / flying_board.IMAGE, told)
     return BoardCopter(shutil.copy(made, tmp_path / made.name))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the copter says in words of attempts to arm and of its satellite receiver, run by run."""
+"""The copter's words on attempts to arm and on its satellite receiver, run by run."""
 
 from __future__ import annotations
 

@@ -4,10 +4,12 @@ pyfatfs, a file system that others wrote."""
 
 from __future__ import annotations
 
+import contextlib
 import io
 import mmap
 import tempfile
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,25 +21,43 @@ MIB = 1 << 20
 SIZE = 1024 * MIB  # From 256 MiB on clusters have 4 KiB, as cards that are sold have at least.
 
 
-def _module(tools: Toolchain, name: str) -> Any:
-    """Of pyfatfs, whose imports are of another time."""
+def file_system(tools: Toolchain) -> tuple[Any, Any]:
+    """Of pyfatfs: the class that formats, and the one that reads."""
     tools.ensure("card", say=lambda _: None)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return load(tools, "card-packages", f"pyfatfs.{name}")
+        warnings.simplefilter("ignore")  # Its own imports are of another time.
+        return (
+            load(tools, "card-packages", "pyfatfs.PyFat").PyFat,
+            load(tools, "card-packages", "pyfatfs.PyFatFS").PyFatBytesIOFS,
+        )
+
+
+def format_card(system: Any, path: Path, kind: str, size: int) -> None:
+    """A file with an empty file system, of a kind: FAT12, FAT16 or FAT32."""
+    with path.open("wb") as file, warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)
+        file.truncate(size)
+        maker = system()
+        maker.mkfs(str(path), fat_type=getattr(system, f"FAT_TYPE_{kind}"), size=size)
+        maker.close()
+
+
+@contextlib.contextmanager
+def opened(system: Any, file: io.IOBase, offset: int = 0) -> Iterator[Any]:
+    """What is on a card, to be read."""
+    found = system(file, offset=offset)
+    try:
+        yield found
+    finally:
+        found.fs.is_read_only = True  # Its end would write.
 
 
 def new_card(tools: Toolchain) -> mmap.mmap:
     """A card with a FAT32 and no file; what is written to it is this process's own."""
-    system = _module(tools, "PyFat").PyFat
     with tempfile.TemporaryDirectory(prefix="keel-card-") as folder:
         path = Path(folder) / "card.img"
-        with path.open("w+b") as file, warnings.catch_warnings():
-            warnings.simplefilter("ignore", ResourceWarning)
-            file.truncate(SIZE)
-            maker = system()
-            maker.mkfs(str(path), fat_type=system.FAT_TYPE_FAT32, size=SIZE)
-            maker.close()
+        format_card(file_system(tools)[0], path, "FAT32", SIZE)
+        with path.open("r+b") as file:
             return mmap.mmap(file.fileno(), SIZE, mmap.MAP_PRIVATE)
 
 
@@ -73,11 +93,8 @@ class Reader(io.RawIOBase):
 
 def log_of(tools: Toolchain, card: mmap.mmap) -> bytes:
     """The log on a card, as it is when the power is cut now."""
-    system = _module(tools, "PyFatFS").PyFatBytesIOFS(Reader(card), preserve_case=True)
-    try:
-        names = [str(name) for name in system.walk.files() if str(name).endswith(".ULG")]
+    with opened(file_system(tools)[1], Reader(card)) as found:
+        names = [str(name) for name in found.walk.files() if str(name).endswith(".ULG")]
         if len(names) != 1:
             raise ToolError(f"the card has {len(names)} logs, where it should have one")
-        return bytes(system.readbytes(names[0]))
-    finally:
-        system.fs.is_read_only = True  # Its end would write.
+        return bytes(found.readbytes(names[0]))

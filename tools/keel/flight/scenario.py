@@ -120,6 +120,7 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "core_stops": (),
     "brown_out": (),
 }
+CARD_FAULTS = ("card_busy", "card_gone")
 # The board's own: they are on the model of a board alone. The second ones are not mended.
 BOARD_FAULTS = (
     "imu_unplugged",
@@ -128,10 +129,8 @@ BOARD_FAULTS = (
     "gps_silent",
     "radio_unplugged",
     "radio_line_noise",
-    "card_busy",
-    "card_gone",
+    *CARD_FAULTS,
 )
-CARD_FAULTS = ("card_busy", "card_gone")
 CHIP_FAULTS = ("oscillator_lost", "task_hangs", "core_stops", "brown_out")
 # What it may have.
 OPTIONAL: dict[str, tuple[str, ...]] = {

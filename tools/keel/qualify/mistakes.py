@@ -33,7 +33,7 @@ TABLE = "tests/target/mistakes.toml"
 BOARD = "fmuv5"
 TOOL = "unicorn"
 GROUPS = ("firmware", "fatfs", "model")
-# What an image and its trial depend on besides the tools.
+# An image and its trial depend on these, besides the tools.
 SOURCES = ("bsp", "examples", "include", "src", PROGRAMS, "tools/keel/boards")
 FILES = (
     "specs/outputs.toml",
