@@ -304,7 +304,7 @@ static keel_status_t start_anew(void)
 int sim_start(const sim_options_t *chosen)
 {
     options = *chosen;
-    begun_ns = 0u;
+    begun_ns = HOST_NS_PER_US * (uint64_t)options.boot_us;
     memset(&sensors, 0, sizeof sensors);
     memset(&taken, 0, sizeof taken);
     memset(delay, 0, sizeof delay);

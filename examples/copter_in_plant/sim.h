@@ -92,7 +92,8 @@ typedef void (*sim_hash_t)(const uint8_t *data, uint32_t size, uint8_t *digest);
 typedef struct sim_options {
     uint32_t costs_percent; /**< Of its budget that a task's run takes: 100. */
     uint32_t imus;          /**< Inertial units that it has, 2 or 3. */
-    uint32_t plain_mean;    /**< 1: the three units' mean in place of their vote, for comparison. */
+    uint32_t boot_us;    /**< From power-up to the copter's first turn; a board needs some time. */
+    uint32_t plain_mean; /**< 1: the three units' mean in place of their vote, for comparison. */
     uint32_t bytes_per_s[SIM_LINKS]; /**< That each link of telemetry carries; 0: it is not there.
                                           Without any there is no telemetry, nor its task. */
     uint32_t listens[SIM_LINKS];     /**< 1: what comes by it may not command. */

@@ -5,9 +5,9 @@
 // replaces: keel_crc16
 // covers: keel_mavlink_write cut_of checksum_of
 //
-// Chosen payloads of up to 255 bytes, with zeros at their end or none: the same as the model's.
-// Faults that only a long payload shows are refuted here; keel_mavlink_write_harness has every
-// payload of up to 32 bytes.
+// Chosen payloads of up to 255 bytes, with zeros at their end or none, that fit or are just too
+// long: the same as the model's. Faults that only a long payload shows are refuted here;
+// keel_mavlink_write_harness has every payload of up to 32 bytes.
 #include "mavlink_contracts.h"
 
 #define ASKED (10u + KEEL_MAVLINK_PAYLOAD_MAX)
@@ -17,21 +17,25 @@ typedef struct {
     uint8_t length;
     uint8_t zeros_from;
     bool is_signing;
+    uint8_t longest;
 } point_t;
 
-#define POINTS 8u
+#define POINTS 10u
 
 static const point_t point[POINTS] = {
-    {255u, 255u, true}, {255u, 200u, false}, {255u, 65u, true}, {200u, 255u, true},
-    {64u, 255u, false}, {65u, 64u, true},    {0u, 255u, false}, {63u, 255u, true},
+    {255u, 255u, true, 255u},  {255u, 200u, false, 255u}, {255u, 65u, true, 255u},
+    {200u, 255u, true, 255u},  {64u, 255u, false, 64u},   {65u, 64u, true, 255u},
+    {0u, 255u, false, 255u},   {63u, 255u, true, 63u},    {65u, 255u, true, 64u},
+    {255u, 255u, false, 254u},
 };
 
 void keel_mavlink_write__points_harness(void)
 {
-    const keel_mavlink_message_t message = {.id = 0x123456u, .longest = 255u, .crc_extra = 77u};
     uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX];
 
     for (uint32_t i = 0u; i < POINTS; i++) {
+        const keel_mavlink_message_t message = {
+            .id = 0x123456u, .longest = point[i].longest, .crc_extra = 77u};
         bool same = true;
         keel_mavlink_sender_t sender = {(uint8_t)(i * 36u), 3u, 200u, point[i].is_signing};
         keel_mavlink_sender_t model_sender = sender;

@@ -32,7 +32,9 @@ from keel.timing import taskset
 
 __all__ = ["pymavlink", "tools"]  # Fixtures.
 PARTS = ("bsp", "include", "src", "examples", "specs")
+ALIKE = ("hover", "sticks", "imu_freeze", "imu_silent", "radio_loss_position", "return_and_land")
 ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
+STEP_US = 50
 ARMS_S = 9.6
 READY_MS = 2000
 UNKNOWN = 2**32 - 1
@@ -298,10 +300,36 @@ def since_begun(trace: Trace, kind: str) -> Any:
     return after[kind] - before[kind]
 
 
-def test_the_image_hovers_as_the_hosts_copter_does(copter: Copter, flown: BoardCopter) -> None:
-    hover = of_two_units("hover")
-    host, own = flight(copter, hover), flight(flown, hover)
-    assert judge.is_good(hover, own, judge.judged(hover, own, None))
+def first_run_us(copter: Copter, flown: scenario.Scenario) -> int:
+    """From power-up to the end of the first run of a task, among the devices of a flight."""
+    begun = Flight(copter, Order(flown, "jsbsim", flown.seed))
+    run_until, seen_us = copter.run_until, list[int]()
+
+    def run_in_steps(time_us: int) -> int:
+        for now_us in range(time_us - 1000 + STEP_US, time_us + 1, STEP_US):
+            assert run_until(now_us) == 0
+            if copter.done()["runs"].any():
+                seen_us.append(now_us)
+        return 0
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(copter, "run_until", run_in_steps)
+        for now_ms in range(1, READY_MS):
+            begun.step(now_ms)
+            if seen_us:
+                return seen_us[0]
+    raise AssertionError("no task runs")
+
+
+@pytest.mark.parametrize("name", ALIKE)
+def test_the_image_flies_as_the_hosts_copter_does(
+    copter: Copter, flown: BoardCopter, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The host's copter boots as long: frames of the radio meet the same turns of its tasks."""
+    asked = of_two_units(name)
+    monkeypatch.setattr(copter, "boot_us", first_run_us(flown, asked) - first_run_us(copter, asked))
+    host, own = flight(copter, asked), flight(flown, asked)
+    assert judge.is_good(asked, own, judge.judged(asked, own, None))
     assert own.column("up").max() > 2.5
     assert loop.state_names(own) == loop.state_names(host)
     assert math.degrees(largest(own, host, ("roll", "pitch"))) <= ROLL_PITCH_DEG

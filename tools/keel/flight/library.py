@@ -155,6 +155,7 @@ class Copter:
 
     headers: Sequence[str] = (SIM,)  # Of what may be called.
     has_board = False
+    boot_us = 0  # From power-up to the first turn, of the host's copter: a board takes its own.
 
     def __init__(self, path: Path) -> None:
         self._ffi = declared(self.headers)
@@ -212,6 +213,7 @@ class Copter:
         options = self._ffi.new("sim_options_t *")
         options.costs_percent, options.plain_mean = costs_percent, int(plain_mean)
         options.imus, options.trace = imus, int(self._trace)
+        options.boot_us = self.boot_us
         for number, link in enumerate(links):
             options.bytes_per_s[number] = link.bytes_per_s
             options.listens[number] = int(not link.commands)
