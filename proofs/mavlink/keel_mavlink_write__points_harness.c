@@ -32,14 +32,18 @@ static const point_t point[POINTS] = {
 void keel_mavlink_write__points_harness(void)
 {
     uint8_t payload[KEEL_MAVLINK_PAYLOAD_MAX];
+    keel_mavlink_packet_t old;
 
+    for (uint32_t at = 0u; at < KEEL_MAVLINK_FRAME_MAX; at++) {
+        old.bytes[at] = (uint8_t)(at | 1u);
+    }
     for (uint32_t i = 0u; i < POINTS; i++) {
         const keel_mavlink_message_t message = {
             .id = 0x123456u, .longest = point[i].longest, .crc_extra = 77u};
         bool same = true;
         keel_mavlink_sender_t sender = {(uint8_t)(i * 36u), 3u, 200u, point[i].is_signing};
         keel_mavlink_sender_t model_sender = sender;
-        keel_mavlink_packet_t packet = {{0}};
+        keel_mavlink_packet_t packet = old;
         keel_mavlink_packet_t model = packet;
         uint16_t expected;
         uint16_t written;
