@@ -11,7 +11,8 @@ import math
 import operator
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -34,8 +35,12 @@ __all__ = ["pymavlink", "tools"]  # Fixtures.
 PARTS = ("bsp", "include", "src", "examples", "specs")
 ALIKE = ("hover", "sticks", "imu_freeze", "imu_silent", "radio_loss_position", "return_and_land")
 ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
+# A link is lost after 300 ms, which are 15 turns: one of the two may tell it a turn later.
+LATER_DEG = {"radio_loss_position": 2.0}
 STEP_US = 10
-ARMS_S = 9.6
+TURN_ROWS = 4  # Rows of 5 ms; a turn of the state machine takes 20 ms.
+RATE_COUNT = math.radians(1 / 16.4)
+ARMS_S = 24.6  # By then the estimates no longer differ by what was met at the start.
 READY_MS = 2000
 UNKNOWN = 2**32 - 1
 # Of MAVLink's common.xml: MAV_SYS_STATUS_SENSOR, and MAV_MODE_FLAG_SAFETY_ARMED.
@@ -289,9 +294,26 @@ def flight(copter: Copter, flown: scenario.Scenario) -> Trace:
     return trace
 
 
+def begins(trace: Trace) -> list[int]:
+    """The rows with which states begin, and the end."""
+    changes = np.flatnonzero(np.diff(trace.view["state"])) + 1
+    return [0, *changes.tolist(), len(trace.truth)]
+
+
 def largest(trace: Trace, other: Trace, names: tuple[str, ...]) -> float:
-    """By how much columns differ at most."""
-    return max(float(np.abs(trace.column(it) - other.column(it)).max()) for it in names)
+    """By how much columns differ at most, each state counted from its begin."""
+    found = []
+    for own, its in zip(pairwise(begins(trace)), pairwise(begins(other)), strict=True):
+        rows = min(own[1] - own[0], its[1] - its[0])
+        for name in names:
+            between = trace.column(name)[own[0] :][:rows] - other.column(name)[its[0] :][:rows]
+            found.append(float(np.abs(between).max()))
+    return max(found)
+
+
+def latest(trace: Trace, other: Trace) -> int:
+    """By how many rows the begins of states are apart at most."""
+    return max(abs(a - b) for a, b in zip(begins(trace), begins(other), strict=True))
 
 
 def since_begun(trace: Trace, kind: str) -> Any:
@@ -321,18 +343,36 @@ def first_run_us(copter: Copter, flown: scenario.Scenario) -> int:
     raise AssertionError("no task runs")
 
 
+def counted_as_the_board_does(copter: Copter) -> Callable[[int], int]:
+    """Samples of the inertial units in whole counts: ICM-20689 and BMI055 by their data sheets."""
+    run_until = copter.run_until
+    counts_of = [(9.80665 / 2048, RATE_COUNT), (9.80665 / 128, RATE_COUNT)]
+
+    def run(time_us: int) -> int:
+        for imu, (force, rate) in zip(copter.sensors["imu"], counts_of, strict=False):
+            imu["accelerometer"] = force * np.round(imu["accelerometer"] / force)
+            imu["gyroscope"] = rate * np.round(imu["gyroscope"] / rate)
+        return int(run_until(time_us))
+
+    return run
+
+
 @pytest.mark.parametrize("name", ALIKE)
 def test_the_image_flies_as_the_hosts_copter_does(
     copter: Copter, flown: BoardCopter, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The host's copter boots as long: frames of the radio meet the same turns of its tasks."""
+    """The host's copter boots as long, so that frames of the radio meet the same turns of tasks,
+    and its units count as coarsely."""
     asked = of_two_units(name)
     monkeypatch.setattr(copter, "boot_us", first_run_us(flown, asked) - first_run_us(copter, asked))
+    monkeypatch.setattr(copter, "run_until", counted_as_the_board_does(copter))
     host, own = flight(copter, asked), flight(flown, asked)
     assert judge.is_good(asked, own, judge.judged(asked, own, None))
     assert own.column("up").max() > 2.5
     assert loop.state_names(own) == loop.state_names(host)
-    assert math.degrees(largest(own, host, ("roll", "pitch"))) <= ROLL_PITCH_DEG
+    assert latest(own, host) <= TURN_ROWS
+    most_deg = LATER_DEG.get(name, ROLL_PITCH_DEG)
+    assert math.degrees(largest(own, host, ("roll", "pitch"))) <= most_deg
     assert largest(own, host, ("north", "east", "up")) <= PLACE_M
     assert not since_begun(own, "skipped").any() and not since_begun(own, "overruns").any()
     assert since_begun(own, "runs").all()
