@@ -452,7 +452,9 @@ class WpRun(TreeTest):
 
     def test_floats_are_smoked_by_a_prover_that_knows_them(self) -> None:
         target = wp_targets.Target(self.unit, self.unit.source, "keel_box_put")
-        self.assertEqual(wp.smoke_stage(target, self.root), wp.SMOKE)
+        with self.unit.header.open("a", encoding="utf-8") as stream:
+            stream.write("/* No float stands in here. */\n")
+        self.assertEqual(wp.smoke_stage(target, self.root), wp.SMOKE, "prose is no code")
         with self.unit.header.open("a", encoding="utf-8") as stream:
             stream.write("typedef struct { float most; } keel_box_limit_t;\n")
         self.assertEqual(wp.smoke_stage(target, self.root), wp.SMOKE_OF_FLOATS)

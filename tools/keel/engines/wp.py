@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from keel.base.jobs import Runner
+from keel.c import source as csource
 from keel.c.project import include_options
 from keel.engines.frama_modules import Modules
 from keel.install.provers import CLOCK_PER_PROCESSOR, SMOKE_SECONDS
@@ -105,7 +106,7 @@ FLOATS = re.compile(r"\b(?:float|double)\b")
 
 def smoke_stage(target: Target, root: Path) -> Stage:
     """The pass that looks for contradictions, by a prover that knows what the goals may have."""
-    texts = dependencies(target, root).values()
+    texts = map(csource.without_prose, dependencies(target, root).values())
     return SMOKE_OF_FLOATS if any(map(FLOATS.search, texts)) else SMOKE
 
 
