@@ -91,7 +91,7 @@ static const model_default_t defaults[] = {
     {FLASH_BASE + offsetof(keel_flash_t, OPTCR), 0xFFFFAAF1u},
     {GPIOA_BASE, 0xA8000000u},
     {GPIOB_BASE, 0x280u},
-    {SCB_BASE + offsetof(keel_scb_t, CCSIDR), 0x0FE00019u | (127u << 13u)},
+    {SCB_BASE + offsetof(keel_scb_t, CCSIDR), 0xF00FE019u},
     {MPU_BASE, MPU_TYPE_RESET},
 };
 

@@ -22,9 +22,11 @@
 
 #define VOTE(text, number) FLOATS(text, imu.virtual_imu.channel[number].vote.output)
 
+/* Units, vote and attitude are foreground IMU's; angle control, which runs behind it in each of its
+ * periods, writes them: so no real-time budget pays for that. */
 #define IMU(number)                                                                                \
     {                                                                                              \
-        .name = {"imu"}, .instance = (number), .row = URPILOT_FOREGROUND_IMU, .every = 1u,         \
+        .name = {"imu"}, .instance = (number), .row = URPILOT_ANGLE_CONTROL, .every = 1u,          \
         .gives_way = true, .fields = 4u, .field = {                                                \
             FLOATS("value", imu.unit[number].value),                                               \
             WORDS("age_us", imu.unit[number].age_us),                                              \
@@ -40,7 +42,7 @@ const copter_topic_t copter_topic[] = {
     IMU(1),
     IMU(2),
     {.name = {"vote"},
-     .row = URPILOT_FOREGROUND_IMU,
+     .row = URPILOT_ANGLE_CONTROL,
      .every = 5u,
      .fields = 10u,
      .field = {VOTE("force_x", 0), VOTE("force_y", 1), VOTE("force_z", 2), VOTE("rate_x", 3),
@@ -49,7 +51,7 @@ const copter_topic_t copter_topic[] = {
                BYTES("force_state", imu.accelerometer.state),
                BYTES("rate_state", imu.gyroscope.state)}},
     {.name = {"attitude"},
-     .row = URPILOT_FOREGROUND_IMU,
+     .row = URPILOT_ANGLE_CONTROL,
      .every = 5u,
      .fields = 7u,
      .field = {FLOATS("q", imu.attitude.quaternion), FLOATS("bias", imu.attitude.bias),

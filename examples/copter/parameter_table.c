@@ -195,7 +195,7 @@ const keel_parameter_t copter_parameter[COPTER_PARAMETER_COUNT] = {
      .highest = {.type = KEEL_PARAMETER_BOOL, .whole = 1},
      .restarts = true},
     {.name = "FS_LOSS_TIME",
-     .initial = {.type = KEEL_PARAMETER_INT32, .whole = 300000},
+     .initial = {.type = KEEL_PARAMETER_INT32, .whole = 290000},
      .lowest = {.type = KEEL_PARAMETER_INT32, .whole = 200000},
      .highest = {.type = KEEL_PARAMETER_INT32, .whole = 300000},
      .restarts = true},

@@ -156,7 +156,7 @@ const copter_settings_t copter_defaults = {
                 .hold_steps = 20u,
                 .cells = 4u,
                 .modules = 2u},
-    .mode = {.loss_us = 300000u,
+    .mode = {.loss_us = 290000u,
              .regain_us = 500000u,
              .request_us = 300000u,
              .kill_us = 300000u,

@@ -17,24 +17,15 @@ import pytest
 from pymavlink.dialects.v20 import common as mavlink
 from test_telemetry import Rig, armed, value_in
 
-from keel.flight import library
 from keel.flight.library import Copter, checks_of
 from keel.flight.plants import Plant, Truth
 from keel.flight.sensors import body_to_earth
-from keel.install import Toolchain
 
 ACCEPTED, REJECTED, UNSUPPORTED = 0, 1, 3
 PREFLIGHT_CALIBRATION, ARM = 241, 400
 G = 9.80665
 CALIBRATE, ON, OFF = 7, 2000, 1500  # The pilot's switch.
 TURNS = "not calibrated: it turns, or iron moves nearby"
-
-
-@pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
-    """The library; what is undefined ends it."""
-    flags = ("-O1", "-fsanitize=undefined", "-fno-sanitize-recover=all")
-    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter"), more=flags))
 
 
 @dataclass

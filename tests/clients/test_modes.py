@@ -21,7 +21,6 @@ from test_telemetry import ANGLE, FLYING, LOW, MODE_SWITCH, REAL32, THROTTLE, Ri
 
 from keel.flight import library
 from keel.flight.library import Copter, Link
-from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED, FAILED = 0, 1, 2, 3, 4
@@ -44,13 +43,6 @@ MODES = {
 NUMBER = {name: row[0] for name, row in MODES.items()}
 NONE = 0xFF0000
 GEOFENCE = mavlink.MAV_SYS_STATUS_GEOFENCE
-
-
-@pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
-    """The library; what is undefined ends it."""
-    flags = ("-O1", "-fsanitize=undefined", "-fno-sanitize-recover=all")
-    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter"), more=flags))
 
 
 def last(rig: Rig, kind: str, link: int = 0) -> Any:

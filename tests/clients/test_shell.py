@@ -21,10 +21,8 @@ import pytest
 from pymavlink.dialects.v20 import common as mavlink
 from test_telemetry import Rig
 
-from keel.flight import library
 from keel.flight.keyboard import Keyboard
 from keel.flight.library import Copter, Key, Link
-from keel.install import Toolchain
 from keel.timeline import runs
 
 SHELL, OTHER_DEVICE = 10, 0
@@ -34,13 +32,6 @@ PROMPT = "keel> "
 # docs/timing.md: a run counts where it lies from one up to below the next.
 EDGES = (0, 10, 30, 100, 300, 1000, 3000)
 HELP = "help: these commands\ntasks: how each task has run since the start\n"
-
-
-@pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
-    """The library; what is undefined ends it."""
-    flags = ("-O1", "-fsanitize=undefined", "-fno-sanitize-recover=all")
-    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter"), more=flags))
 
 
 def typed(text: str, flags: int = EXCLUSIVE | RESPOND, device: int = SHELL) -> Any:

@@ -22,9 +22,8 @@ from pymavlink.dialects.v20 import common as mavlink
 from qgroundcontrol import Driver, Met, QGroundControl, Reply, kind_of, payload_of
 from test_telemetry import Rig
 
-from keel.flight import device_frames, library
+from keel.flight import device_frames
 from keel.flight.library import Copter, Link
-from keel.install import Toolchain
 from keel.timeline import ulog
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,13 +31,6 @@ ACCEPTED, UNSUPPORTED, INVALID_SEQUENCE, DENIED = 0, 3, 13, 2
 MISSION, FENCE, RALLY, ALL = 0, 1, 2, 255
 AT_ONCE_MS = 100
 EVERYBODY, OTHERS = 0, 7
-
-
-@pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
-    """The library; what is undefined ends it."""
-    flags = ("-O1", "-fsanitize=undefined", "-fno-sanitize-recover=all")
-    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter"), more=flags))
 
 
 class Meeting:

@@ -19,12 +19,11 @@ import pytest
 from other_values import others
 from pymavlink.dialects.v20 import development as mavlink
 
-from keel.flight import judge, library, mujoco_plant, scenario, sensors
+from keel.flight import judge, mujoco_plant, scenario, sensors
 from keel.flight.library import Copter, Key, Link
 from keel.flight.loop import Flight, Order, fly
 from keel.flight.pilot import Bystander, Pilot, Sight
 from keel.flight.sensors import TEMPERATURES
-from keel.install import Toolchain
 from keel.timeline import ulog
 
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED = 0, 1, 2, 3
@@ -155,14 +154,6 @@ class Rig:
     def counts(self, link: int = 0) -> Counter[str]:
         """How often each message came."""
         return Counter(message.get_type() for message in self.seen[link])
-
-
-@pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
-    """The library; what is undefined ends it."""
-    flags = ("-O1", "-fsanitize=undefined", "-fno-sanitize-recover=all")
-    folder = tmp_path_factory.mktemp("copter")
-    return Copter(library.build(Toolchain(), folder, more=flags))
 
 
 def test_every_message_is_as_others_encode_it(copter: Copter) -> None:

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import pytest
+import shared_builds
 
-from keel.flight import library
 from keel.flight.library import Copter
 from keel.install import Toolchain
 
 
 @pytest.fixture(scope="module")
-def copter(tmp_path_factory: pytest.TempPathFactory) -> Copter:
+def copter() -> Copter:
     """The library."""
-    return Copter(library.build(Toolchain(), tmp_path_factory.mktemp("copter")))
+    return Copter(shared_builds.copter_library(Toolchain()))

@@ -16,11 +16,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shared_builds
 from pyulog import ULog
 
 from keel.base.errors import ROOT
 from keel.base.run import output_of
-from keel.flight import library, loop, scenario
+from keel.flight import loop, scenario
 from keel.flight.card import file_system, format_card, opened
 from keel.flight.library import Copter
 from keel.flight.loop import Order
@@ -267,7 +268,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """What the copter's log hands to its port in a short flight."""
     folder = tmp_path_factory.mktemp("flight")
     (folder / "flight.toml").write_text(FLIGHT)
-    copter = Copter(library.build(Toolchain(), folder))
+    copter = Copter(shared_builds.copter_library(Toolchain()))
     loop.fly(copter, Order(scenario.read("flight", folder), "mujoco", 1), folder / "flight.ulg")
     copter.log(None)
     return (folder / "flight.ulg").read_bytes()

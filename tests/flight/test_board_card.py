@@ -17,6 +17,7 @@ from test_board_faults import Result, check_flown
 from test_board_flight import READY_MS, flown, made, rest
 from test_copter_image import tools
 
+from keel.base.errors import ROOT
 from keel.base.files import write_json
 from keel.boards import firmware
 from keel.boards.board import application_of, read_board
@@ -60,10 +61,9 @@ def record(copter: BoardCopter, tools: Toolchain, name: str) -> Recorded:
 
 
 @pytest.fixture(scope="module")
-def builder(made: Path, tools: Toolchain) -> firmware.Builder:
+def builder(tools: Toolchain, tmp_path_factory: pytest.TempPathFactory) -> firmware.Builder:
     """All that is right is built once."""
-    root = made.parent.parent / "root"
-    return firmware.Builder(tools, read_board(root, "fmuv5"), root / "build/card", root)
+    return firmware.Builder(tools, read_board(ROOT, "fmuv5"), tmp_path_factory.mktemp("card"))
 
 
 @pytest.fixture

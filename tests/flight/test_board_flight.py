@@ -1,44 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The image of FMUv5 flies on a model of its chip as the host's copter does."""
+"""The image of FMUv5 on a model of its chip, which flies: what it says of its devices, and equal
+flights."""
 
 from __future__ import annotations
 
-import contextlib
 import functools
-import io
 import json
-import math
 import operator
 import shutil
-import tempfile
-from collections.abc import Callable, Iterator
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import shared_builds
+from board_alike import flight, of_two_units
 from test_board_lines import pymavlink
 from test_copter_image import tools
 
 from keel.base.errors import ROOT, ToolError
 from keel.boards.dwarf import Variables
-from keel.flight import board, judge, loop, scenario
+from keel.flight import board
 from keel.flight.board import BoardCopter
-from keel.flight.library import Copter, Link
-from keel.flight.loop import Flight, Order, Trace
-from keel.flight.pilot import Pilot, Sight
+from keel.flight.library import Link
 from keel.install import Toolchain
 from keel.timing import taskset
 
 __all__ = ["pymavlink", "tools"]  # Fixtures.
-PARTS = ("bsp", "include", "src", "examples", "specs")
-ALIKE = ("hover", "sticks", "return_and_land")
-ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
-STEP_US = 10
-APART_ROWS = 20  # Of 5 ms each: by so much a state may begin earlier or later.
-RATE_COUNT = math.radians(1 / 16.4)
-ARMS_S = 24.6  # By then the estimates no longer differ by what was met at the start.
 READY_MS = 2000
 UNKNOWN = 2**32 - 1
 # Of MAVLink's common.xml: MAV_SYS_STATUS_SENSOR, and MAV_MODE_FLAG_SAFETY_ARMED.
@@ -55,14 +43,9 @@ DEVICES = {
 
 
 @pytest.fixture(scope="module")
-def made() -> Iterator[Path]:
-    """The image and its library, of a copy of the sources: they do not replace the user's."""
-    with tempfile.TemporaryDirectory(prefix="keel-test-") as name:
-        root = Path(name, "root")
-        for part in PARTS:
-            shutil.copytree(ROOT / part, root / part)
-        with contextlib.redirect_stdout(io.StringIO()):
-            yield board.build(Toolchain(), "fmuv5", Path(name, "made"), root)
+def made(tools: Toolchain) -> Path:
+    """The image's library."""
+    return shared_builds.flying_board(tools, "fmuv5")
 
 
 @pytest.fixture
@@ -267,116 +250,6 @@ def test_the_board_declares_what_is_analysed(flown: BoardCopter) -> None:
         for task in found.tasks
         if task.name != "Log"
     ]
-
-
-def of_two_units(name: str) -> scenario.Scenario:
-    """A scenario with as many units as the board has."""
-    found = scenario.read(name)
-    return found.model_copy(update={"options": found.options.model_copy(update={"imus": 2})})
-
-
-class LatePilot(Pilot):
-    """He switches on at a time at which either copter is ready: so both meet the same noise."""
-
-    waited_s = 0.0
-
-    def _wait(self, sight: Sight) -> None:
-        self.waited_s += self.frame_s
-        super()._wait(sight)
-        self.armed = self.armed and self.waited_s >= ARMS_S
-
-
-def flight(copter: Copter, flown: scenario.Scenario) -> Trace:
-    trace = Flight(copter, Order(flown, "jsbsim", flown.seed), LatePilot).fly()
-    assert not trace.problem and not trace.crash
-    return trace
-
-
-def begins(trace: Trace) -> list[int]:
-    """The rows with which states begin, and the end."""
-    changes = np.flatnonzero(np.diff(trace.view["state"])) + 1
-    return [0, *changes.tolist(), len(trace.truth)]
-
-
-def largest(trace: Trace, other: Trace, names: tuple[str, ...]) -> float:
-    """By how much columns differ at most, each state counted from its begin."""
-    found = []
-    for own, its in zip(pairwise(begins(trace)), pairwise(begins(other)), strict=True):
-        rows = min(own[1] - own[0], its[1] - its[0])
-        for name in names:
-            between = trace.column(name)[own[0] :][:rows] - other.column(name)[its[0] :][:rows]
-            found.append(float(np.abs(between).max()))
-    return max(found)
-
-
-def latest(trace: Trace, other: Trace) -> int:
-    """By how many rows the begins of states are apart at most."""
-    return max(abs(a - b) for a, b in zip(begins(trace), begins(other), strict=True))
-
-
-def since_begun(trace: Trace, kind: str) -> Any:
-    """Counts of tasks since the motors started."""
-    before, after = trace.done
-    return after[kind] - before[kind]
-
-
-def first_run_us(copter: Copter, flown: scenario.Scenario) -> int:
-    """From power-up to the end of the first run of a task, among the devices of a flight."""
-    begun = Flight(copter, Order(flown, "jsbsim", flown.seed))
-    run_until, seen_us = copter.run_until, list[int]()
-
-    def run_in_steps(time_us: int) -> int:
-        for now_us in range(time_us - 1000 + STEP_US, time_us + 1, STEP_US):
-            assert run_until(now_us) == 0
-            if copter.done()["runs"].any():
-                seen_us.append(now_us)
-        return 0
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(copter, "run_until", run_in_steps)
-        for now_ms in range(1, READY_MS):
-            begun.step(now_ms)
-            if seen_us:
-                return seen_us[0]
-    raise AssertionError("no task runs")
-
-
-def counted_as_the_board_does(copter: Copter) -> Callable[[int], int]:
-    """Samples of the inertial units in whole counts: ICM-20689 and BMI055 by their data sheets."""
-    run_until = copter.run_until
-    counts_of = [(9.80665 / 2048, RATE_COUNT), (9.80665 / 128, RATE_COUNT)]
-
-    def run(time_us: int) -> int:
-        for imu, (force, rate) in zip(copter.sensors["imu"], counts_of, strict=False):
-            imu["accelerometer"] = force * np.round(imu["accelerometer"] / force)
-            imu["gyroscope"] = rate * np.round(imu["gyroscope"] / rate)
-        return int(run_until(time_us))
-
-    return run
-
-
-@pytest.mark.parametrize("name", ALIKE)
-def test_the_image_flies_as_the_hosts_copter_does(
-    copter: Copter, flown: BoardCopter, name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The host's copter boots as long, so that frames of the radio meet the same turns of tasks,
-    and its units count as coarsely."""
-    asked = of_two_units(name)
-    monkeypatch.setattr(copter, "boot_us", first_run_us(flown, asked) - first_run_us(copter, asked))
-    monkeypatch.setattr(copter, "run_until", counted_as_the_board_does(copter))
-    host, own = flight(copter, asked), flight(flown, asked)
-    assert judge.is_good(asked, own, judge.judged(asked, own, None))
-    assert own.column("up").max() > 2.5
-    assert loop.state_names(own) == loop.state_names(host)
-    assert latest(own, host) <= APART_ROWS
-    assert math.degrees(largest(own, host, ("roll", "pitch"))) <= ROLL_PITCH_DEG
-    assert largest(own, host, ("north", "east", "up")) <= PLACE_M
-    assert not since_begun(own, "skipped").any() and not since_begun(own, "overruns").any()
-    assert since_begun(own, "runs").all()
-    timed = flown.timed()
-    assert [task.name for task in timed if not task.fits] == []
-    # The bursts of both units alone are 34 bytes of 8 bits at 6.75 MHz: 40.3 us.
-    assert next(it for it in timed if it.name == "Background IMU").longest_us > 40
 
 
 def test_equal_flights_are_equal(flown: BoardCopter) -> None:

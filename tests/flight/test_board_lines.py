@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_copter_image import images, sources, tools
+import shared_builds
+from test_copter_image import tools
 
 from keel.boards.built import read_built
 from keel.boards.chip import Chip
@@ -20,9 +21,14 @@ from keel.flight import device_frames
 from keel.install import Toolchain
 from keel.qualify.board_trials import FIX_MS, HEIGHT_M, PLACE, reports, resting, send_radio
 
-__all__ = ["images", "sources", "tools"]  # Fixtures.
+__all__ = ["tools"]  # A fixture.
 
 ARM, KILL = 4, 6  # Channels.
+
+
+@pytest.fixture(scope="module")
+def images(tools: Toolchain) -> Path:
+    return shared_builds.images(tools, ("fmuv5",))
 
 
 def run_built(tools: Toolchain, root: Path, chip: Chip, until_ms: int) -> None:

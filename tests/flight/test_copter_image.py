@@ -7,13 +7,11 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import shutil
-import tempfile
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+import shared_builds
 from pyulog import ULog
 from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 
@@ -22,21 +20,11 @@ from keel.boards import chip_model, firmware, stack
 from keel.boards.board import application_of, read_board
 from keel.boards.card import SdCard
 from keel.boards.chip import Chip
-from keel.boards.rebuilt import SOURCES
 from keel.install import Toolchain
 from keel.qualify.board_trials import STEP_US, reports
 
 __all__ = ["pyfatfs"]  # A fixture.
 BOARDS = ("fmuv5", "cuav_v5", "nucleo_f767zi")
-
-
-@pytest.fixture(scope="module")
-def sources() -> Iterator[Path]:
-    with tempfile.TemporaryDirectory(prefix="keel-test-") as name:
-        root = Path(name, "one")
-        for part in (*SOURCES, "specs"):
-            shutil.copytree(ROOT / part, root / part)
-        yield root
 
 
 @pytest.fixture(scope="module")
@@ -47,12 +35,8 @@ def tools() -> Toolchain:
 
 
 @pytest.fixture(scope="module")
-def images(tools: Toolchain, sources: Path) -> Path:
-    """The images of both boards, in a copy: they do not replace the user's."""
-    for board in BOARDS:
-        with contextlib.redirect_stdout(io.StringIO()):
-            assert firmware.main([board, "--named", "copter"], sources) == 0
-    return sources
+def images(tools: Toolchain) -> Path:
+    return shared_builds.images(tools, BOARDS)
 
 
 def run(
@@ -69,10 +53,10 @@ def run(
 
 
 @pytest.mark.parametrize("board", BOARDS)
-def test_two_folders_give_the_same_bits(tools: Toolchain, images: Path, board: str) -> None:
-    again = images.parent / "another/and/deeper"
-    for part in (*SOURCES, "specs"):
-        shutil.copytree(images / part, again / part, dirs_exist_ok=True)
+def test_two_folders_give_the_same_bits(
+    tools: Toolchain, images: Path, tmp_path: Path, board: str
+) -> None:
+    again = shared_builds.copy_sources(tmp_path / "another/and/deeper", images)
     with contextlib.redirect_stdout(io.StringIO()):
         assert firmware.main([board, "--named", "copter"], again) == 0
     for file in ("keel.elf", "keel.bin", "report.json"):
@@ -219,20 +203,17 @@ VARIANT = "bsp/fmuv5/variant.c"
 
 @pytest.mark.parametrize("mounting", ["2, 1, 3)", "1, 1, 3)", "1, 2, 4)", "0, 2, 3)"])
 def test_a_mounting_that_is_no_rotation_does_not_compile(
-    tools: Toolchain, sources: Path, mounting: str
+    tools: Toolchain, tmp_path: Path, mounting: str
 ) -> None:
-    file = sources / VARIANT
+    root = shared_builds.copy_sources(tmp_path)
+    file = root / VARIANT
     text = file.read_text()
-    board = read_board(sources, "fmuv5")
-    builder = firmware.Builder(tools, board, sources / "build/bent", sources)
+    builder = firmware.Builder(tools, read_board(root, "fmuv5"), root / "build", root)
     builder.object(VARIANT)
     builder.build.made.clear()
     file.write_text(text.replace("F, 2u, 2, 1, -3)", f"F, 2u, {mounting}"))
-    try:
-        with pytest.raises(firmware.ToolError, match="negative"):
-            builder.object(VARIANT)
-    finally:
-        file.write_text(text)
+    with pytest.raises(firmware.ToolError, match="negative"):
+        builder.object(VARIANT)
 
 
 def test_an_unknown_name() -> None:

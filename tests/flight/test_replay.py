@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shared_builds
 
 from keel.base.errors import ToolError
 from keel.flight import library, loop, scenario
@@ -123,9 +124,9 @@ class Motion:
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def built() -> Path:
     """The library."""
-    return library.build(Toolchain(), tmp_path_factory.mktemp("copter"))
+    return shared_builds.copter_library(Toolchain())
 
 
 @pytest.fixture(scope="module")

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 from pyulog import ULog
 from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
-from test_board_lines import ARM, pymavlink, run_built
-from test_copter_image import images, sources, tools
+from test_board_lines import ARM, images, pymavlink, run_built
+from test_copter_image import tools
 
 from keel.boards.card import SdCard
 from keel.boards.chip import Chip
@@ -31,7 +31,7 @@ from keel.qualify.board_trials import (
     resting,
 )
 
-__all__ = ["images", "pyfatfs", "pymavlink", "sources", "tools"]  # Fixtures.
+__all__ = ["images", "pyfatfs", "pymavlink", "tools"]  # Fixtures.
 
 UP_US = 1_000_000  # So soon it is ready again.
 

@@ -79,7 +79,7 @@ RESETS = {
     FLASHR + 0x14: 0xFFFF_AAF1,
     GPIOA: 0xA800_0000,
     GPIOA + 0x400: 0x280,
-    SCB + 0x80: 0x0FE0_0019 | 127 << 13,  # 128 sets of 4 ways of 32 bytes.
+    SCB + 0x80: 0xF00F_E019,  # 128 sets of 4 ways of 32 bytes, by Arm's manual for 16 KiB.
     SCB + 0x90: 0x800,
 }
 

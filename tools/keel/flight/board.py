@@ -101,6 +101,11 @@ def build(tools: Toolchain, name: str, folder: Path, root: Path = ROOT) -> Path:
     tools.ensure("firmware", "fatfs", "model")
     named = application_of(read_board(root, name), APPLICATION)
     firmware.build(tools, name, named.application, root, "fatfs" in named.libraries)
+    return pack(tools, name, folder, root)
+
+
+def pack(tools: Toolchain, name: str, folder: Path, root: Path = ROOT) -> Path:
+    """The library that flies the image that was built, which it is told."""
     image = read_built(root, name)
     told = {"elf": str(image.elf), "binary": str(image.binary), "address": image.address}
     write_json(folder / IMAGE, {"board": name, **told})

@@ -133,7 +133,7 @@ def report_name(options: argparse.Namespace) -> str:
 def library_of(options: argparse.Namespace) -> Path:
     """Where the copter's library is made."""
     folder: Path = options.build
-    return folder / options.board / board.LIBRARY if options.board else folder / "libcopter.so"
+    return folder / options.board / board.LIBRARY if options.board else folder / library.NAME
 
 
 def build(options: argparse.Namespace) -> None:

@@ -50,6 +50,7 @@ SOURCES = (
     "bsp/host/host_board.c",
 )
 FOLDERS = ("examples/copter", "examples/copter_in_plant")  # Without what lies below them.
+NAME = "libcopter.so"
 LINE_BYTES = 4096  # At most so many wait in a link.
 KINDS = {"float": "<f4", "uint32_t": "<u4", "int32_t": "<i4", "int16_t": "<i2", "uint16_t": "<u2"}
 
@@ -67,7 +68,7 @@ def sources(root: Path = ROOT) -> list[str]:
 def build(tools: Toolchain, folder: Path, width: int = 2, more: Sequence[str] = ()) -> Path:
     """The library, made anew of what is there now, with more flags."""
     make = Build(tools, "gcc", [*FLAGS, *more], folder, link_flags=("-shared", *more))
-    return make.link("libcopter.so", make.objects(sources(), width=width), ("-lm",))
+    return make.link(NAME, make.objects(sources(), width=width), ("-lm",))
 
 
 def digest_of(root: Path = ROOT) -> str:

@@ -29,7 +29,7 @@ def library_of(digest: str) -> Path:
     """The copter's library of these sources; built by the first who asks."""
     folder = BUILD / f"library-{digest[:16]}"
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "libcopter.so"
+    path = folder / library.NAME
     with (folder / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not path.is_file():

@@ -168,7 +168,7 @@ def jobs_of(options: argparse.Namespace) -> list[Job]:
     return [
         Job(
             one,
-            options.build / "libcopter.so",
+            options.build / library.NAME,
             None if options.no_pictures else options.build / f"{one.name}.png",
             options.compare,
             options.frame,

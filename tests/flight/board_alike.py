@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A scenario in which the image of FMUv5, on the model of its chip, and the host's copter must fly
+alike.
+
+Both have two units. The host's copter boots as long as the image, so that frames of the radio meet
+the same turns of tasks, and its units count as coarsely.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from keel.flight import loop, scenario
+from keel.flight.board import BoardCopter
+from keel.flight.library import Copter
+from keel.flight.loop import Flight, Order, Trace
+from keel.flight.pilot import Pilot, Sight
+
+ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
+STEP_US = 10
+BOOTS_MS = 2000
+RATE_COUNT = math.radians(1 / 16.4)
+# Of each unit, what a count is, by the data sheets: ICM-20689 and BMI055.
+COUNTS = ((9.80665 / 2048, RATE_COUNT), (9.80665 / 128, RATE_COUNT))
+ARMS_S = 24.6
+
+
+class LatePilot(Pilot):
+    """He switches on when the estimates no longer differ by what they met at the start, which in
+    angle mode becomes metres: nobody holds the place there."""
+
+    waited_s = 0.0
+
+    def _wait(self, sight: Sight) -> None:
+        self.waited_s += self.frame_s
+        super()._wait(sight)
+        self.armed = self.armed and self.waited_s >= ARMS_S
+
+
+def of_two_units(name: str) -> scenario.Scenario:
+    """A scenario with as many units as the board has."""
+    found = scenario.read(name)
+    return found.model_copy(update={"options": found.options.model_copy(update={"imus": 2})})
+
+
+def flight(copter: Copter, asked: scenario.Scenario, pilot: type[Pilot] = Pilot) -> Trace:
+    """From the motors' start on."""
+    trace = Flight(copter, Order(asked, "jsbsim", asked.seed), pilot).fly()
+    assert not trace.problem and not trace.crash
+    return trace
+
+
+def largest(trace: Trace, other: Trace, names: tuple[str, ...]) -> float:
+    """By how much columns differ at most."""
+    rows = min(len(trace.truth), len(other.truth))
+    return max(
+        float(np.abs(trace.column(name)[:rows] - other.column(name)[:rows]).max()) for name in names
+    )
+
+
+def since_begun(trace: Trace, kind: str) -> np.ndarray:
+    """Counts of tasks since the motors started."""
+    before, after = trace.done
+    return np.asarray(after[kind] - before[kind])
+
+
+def first_run_us(copter: Copter, asked: scenario.Scenario) -> int:
+    """From power-up to the end of the first run of a task, among the devices of a flight."""
+    begun = Flight(copter, Order(asked, "jsbsim", asked.seed))
+    run_until, seen_us = copter.run_until, list[int]()
+
+    def run_in_steps(time_us: int) -> int:
+        for now_us in range(time_us - 1000 + STEP_US, time_us + 1, STEP_US):
+            assert run_until(now_us) == 0
+            if copter.done()["runs"].any():
+                seen_us.append(now_us)
+        return 0
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(copter, "run_until", run_in_steps)
+        for now_ms in range(1, BOOTS_MS):
+            begun.step(now_ms)
+            if seen_us:
+                return seen_us[0]
+    raise AssertionError("no task runs")
+
+
+def counted_as_the_board_does(copter: Copter) -> Callable[[int], int]:
+    """Runs a copter on samples of whole counts."""
+    run_until = copter.run_until
+
+    def run(time_us: int) -> int:
+        for imu, (force, rate) in zip(copter.sensors["imu"], COUNTS, strict=False):
+            imu["accelerometer"] = force * np.round(imu["accelerometer"] / force)
+            imu["gyroscope"] = rate * np.round(imu["gyroscope"] / rate)
+        return int(run_until(time_us))
+
+    return run
+
+
+def check_alike(copter: Copter, board: BoardCopter, name: str) -> tuple[scenario.Scenario, Trace]:
+    """Fly both; the scenario, and the board's flight."""
+    asked = of_two_units(name)
+    with pytest.MonkeyPatch.context() as patch:
+        boot_us = first_run_us(board, asked) - first_run_us(copter, asked)
+        patch.setattr(copter, "boot_us", boot_us)
+        patch.setattr(copter, "run_until", counted_as_the_board_does(copter))
+        host, own = flight(copter, asked, LatePilot), flight(board, asked, LatePilot)
+    assert own.column("up").max() > 2.5
+    assert loop.state_names(own) == loop.state_names(host)
+    assert math.degrees(largest(own, host, ("roll", "pitch"))) <= ROLL_PITCH_DEG
+    assert largest(own, host, ("north", "east", "up")) <= PLACE_M
+    assert not since_begun(own, "skipped").any() and not since_begun(own, "overruns").any()
+    assert since_begun(own, "runs").all()
+    assert [task.name for task in board.timed() if not task.fits] == []
+    return asked, own
