@@ -18,8 +18,8 @@ from pymavlink.dialects.v20 import common as mavlink
 from test_telemetry import Rig, armed, value_in
 
 from keel.flight.library import Copter, checks_of
-from keel.flight.plants import Plant, Truth
 from keel.flight.sensors import body_to_earth
+from keel.plants.plants import Plant, Truth
 
 ACCEPTED, REJECTED, UNSUPPORTED = 0, 1, 3
 PREFLIGHT_CALIBRATION, ARM = 241, 400

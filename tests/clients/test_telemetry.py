@@ -19,11 +19,12 @@ import pytest
 from other_values import others
 from pymavlink.dialects.v20 import development as mavlink
 
-from keel.flight import judge, mujoco_plant, scenario, sensors
+from keel.flight import judge, scenario, sensors
 from keel.flight.library import Copter, Key, Link
 from keel.flight.loop import Flight, Order, fly
 from keel.flight.pilot import Bystander, Pilot, Sight
 from keel.flight.sensors import TEMPERATURES
+from keel.plants import mujoco_plant
 from keel.timeline import ulog
 
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED = 0, 1, 2, 3

@@ -14,8 +14,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from keel.flight import loop, scenario
-from keel.flight.board import BoardCopter
+from keel.flight import judge, loop, scenario
+from keel.flight.board import BOARDS, BoardCopter
 from keel.flight.library import Copter
 from keel.flight.loop import Flight, Order, Trace
 from keel.flight.pilot import Pilot, Sight
@@ -43,8 +43,7 @@ class LatePilot(Pilot):
 
 def of_two_units(name: str) -> scenario.Scenario:
     """A scenario with as many units as the board has."""
-    found = scenario.read(name)
-    return found.model_copy(update={"options": found.options.model_copy(update={"imus": 2})})
+    return scenario.with_units(scenario.read(name), BOARDS["fmuv5"])
 
 
 def flight(copter: Copter, asked: scenario.Scenario, pilot: type[Pilot] = Pilot) -> Trace:
@@ -102,8 +101,8 @@ def counted_as_the_board_does(copter: Copter) -> Callable[[int], int]:
     return run
 
 
-def check_alike(copter: Copter, board: BoardCopter, name: str) -> tuple[scenario.Scenario, Trace]:
-    """Fly both; the scenario, and the board's flight."""
+def check_alike(copter: Copter, board: BoardCopter, name: str) -> None:
+    """Fly both."""
     asked = of_two_units(name)
     with pytest.MonkeyPatch.context() as patch:
         boot_us = first_run_us(board, asked) - first_run_us(copter, asked)
@@ -116,5 +115,5 @@ def check_alike(copter: Copter, board: BoardCopter, name: str) -> tuple[scenario
     assert largest(own, host, ("north", "east", "up")) <= PLACE_M
     assert not since_begun(own, "skipped").any() and not since_begun(own, "overruns").any()
     assert since_begun(own, "runs").all()
+    assert judge.is_good(asked, own, judge.judged(asked, own, None))
     assert [task.name for task in board.timed() if not task.fits] == []
-    return asked, own

@@ -33,8 +33,8 @@ from keel.flight.faults import Faults
 from keel.flight.library import Copter
 from keel.flight.loop import Flight, Order, Trace, state_names
 from keel.flight.pins import CAUSES, HIGH, NMI, RESET
-from keel.flight.power import Battery
 from keel.install import Toolchain
+from keel.plants.power import Battery
 
 __all__ = ["flown", "made"]  # Fixtures.
 

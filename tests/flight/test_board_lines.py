@@ -12,11 +12,11 @@ import shared_builds
 from test_copter_image import tools
 
 from keel.boards.built import read_built
-from keel.boards.chip import Chip
-from keel.boards.dma_uart import CRSF, PLAIN, Bits
 from keel.boards.packages import load
-from keel.boards.processor import Processor
-from keel.boards.pulses import LOW, Pulse
+from keel.emulator.chip import Chip
+from keel.emulator.dma_uart import CRSF, PLAIN, Bits
+from keel.emulator.processor import Processor
+from keel.emulator.pulses import LOW, Pulse
 from keel.flight import device_frames
 from keel.install import Toolchain
 from keel.qualify.board_trials import FIX_MS, HEIGHT_M, PLACE, reports, resting, send_radio

@@ -16,10 +16,11 @@ from pyulog import ULog
 from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 
 from keel.base.errors import ROOT
-from keel.boards import chip_model, firmware, stack
+from keel.boards import firmware, stack
 from keel.boards.board import application_of, read_board
-from keel.boards.card import SdCard
-from keel.boards.chip import Chip
+from keel.emulator import chip_model
+from keel.emulator.card import SdCard
+from keel.emulator.chip import Chip
 from keel.install import Toolchain
 from keel.qualify.board_trials import STEP_US, reports
 

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from keel.flight import loop, plants, scenario
+from keel.flight import loop, scenario
 from keel.flight.library import Copter
 from keel.flight.loop import Order
-from keel.flight.plants import Plant, Truth
+from keel.plants import plants
+from keel.plants.plants import Plant, Truth
 
 HOVERS = """description = "hovers"
 duration_s = 14.0

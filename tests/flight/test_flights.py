@@ -16,10 +16,11 @@ from short_flight import SHORT, short
 
 from keel.base.errors import ROOT
 from keel.flight import command as fly
-from keel.flight import library, loop, montecarlo, plants, varied
+from keel.flight import library, loop, montecarlo, varied
 from keel.flight.library import Copter
 from keel.flight.loop import Order
 from keel.install import Toolchain
+from keel.plants import plants
 
 
 @pytest.mark.parametrize("plant", plants.NAMES)

@@ -18,13 +18,14 @@ from pyulog import ULog
 from short_flight import short
 
 from keel.base.errors import ROOT, ToolError
-from keel.flight import library, log_plots, loop
-from keel.flight import log as log_tool
+from keel.flight import library, loop
 from keel.flight.library import Copter, Link
 from keel.flight.loop import Order, Trace
 from keel.flight.sensors import TEMPERATURES
-from keel.flight.spectrum import spectrum
 from keel.install import Toolchain
+from keel.logs import log as log_tool
+from keel.logs import log_plots
+from keel.logs.spectrum import spectrum
 from keel.timeline import runs, ulog
 
 GRAVITY = 9.80665

@@ -16,7 +16,7 @@ import pytest
 from keel.flight import loop, scenario
 from keel.flight.library import Copter
 from keel.flight.loop import Order
-from keel.flight.own_field import own_field
+from keel.logs.own_field import own_field
 from keel.timeline import ulog
 from keel.timeline.ulog import Log
 

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import pytest
 
-from keel.flight import plants
-from keel.flight.plants import Airframe, Plant, Truth
+from keel.plants import plants
+from keel.plants.plants import Airframe, Plant, Truth
 
 HOVER = 0.41
 BOTH = pytest.mark.parametrize("name", plants.NAMES)

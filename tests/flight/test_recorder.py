@@ -19,11 +19,12 @@ from pyulog import ULog
 from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 
 from keel.base.errors import ROOT
-from keel.boards import chip_model, firmware, stack
-from keel.boards.card import SdCard
-from keel.boards.chip import Chip
+from keel.boards import firmware, stack
 from keel.boards.rebuilt import SOURCES
-from keel.boards.wiring import WIRINGS
+from keel.emulator import chip_model
+from keel.emulator.card import SdCard
+from keel.emulator.chip import Chip
+from keel.emulator.wiring import WIRINGS
 from keel.install import Toolchain
 
 __all__ = ["pyfatfs"]  # A fixture.

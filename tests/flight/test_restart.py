@@ -14,10 +14,10 @@ from test_black_box import MIB, OTHERS, files_of, new_card, pyfatfs
 from test_board_lines import ARM, images, pymavlink, run_built
 from test_copter_image import tools
 
-from keel.boards.card import SdCard
-from keel.boards.chip import Chip
-from keel.boards.dma_uart import PLAIN, SBUS
-from keel.boards.pulses import FLOATS, LOW, Pulse
+from keel.emulator.card import SdCard
+from keel.emulator.chip import Chip
+from keel.emulator.dma_uart import PLAIN, SBUS
+from keel.emulator.pulses import FLOATS, LOW, Pulse
 from keel.flight import device_frames
 from keel.install import Toolchain
 from keel.qualify.board_trials import (

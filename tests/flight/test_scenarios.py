@@ -82,6 +82,29 @@ def test_one_that_begins_as_another(tmp_path: Path) -> None:
         read(tmp_path, 'like = "own"\n', "third")
 
 
+def test_with_two_units_the_last_one_fails() -> None:
+    """A fault of unit 3 would break nothing."""
+    third = scenario.with_units(scenario.read("imu_freeze"), 2)
+    assert [fault.unit for fault in third.fault] == [2]
+    assert third.options.imus == 2
+    assert third.limits.without_fault_deg is None  # Two without one land.
+    both = scenario.with_units(scenario.read("imu_freeze_two"), 2)
+    assert [fault.unit for fault in both.fault] == [2]
+    second = scenario.read("board_imu_unplugged")
+    assert scenario.with_units(second, 2).fault == second.fault
+    assert scenario.with_units(second, 2).limits == second.limits
+
+
+def test_a_boards_flights_have_as_many_units_as_the_board() -> None:
+    asked = fly.parsed(["--board", "fmuv5", "--scenario", "imu_freeze", "--plant", "jsbsim"])
+    (job,) = fly.jobs_of(asked, Path("library"))
+    assert [fault.unit for fault in job.order.scenario.fault] == [2]
+    (host,) = fly.jobs_of(
+        fly.parsed(["--scenario", "imu_freeze", "--plant", "jsbsim"]), Path("library")
+    )
+    assert [fault.unit for fault in host.order.scenario.fault] == [3]
+
+
 def test_an_unknown_name_and_the_nearest(tmp_path: Path) -> None:
     read(tmp_path, GOOD, "hover")
     with pytest.raises(ToolError, match="did you mean hover"):

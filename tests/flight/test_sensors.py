@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from keel.flight import device_frames, sensors, wind
-from keel.flight.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
-from keel.flight.power import Battery
+from keel.flight import device_frames, sensors
 from keel.flight.receivers import RADIO, SATELLITES, Receiver
 from keel.flight.scenario import Place, Quality
 from keel.flight.sensors import Broken, Inertial, Slow
+from keel.plants import wind
+from keel.plants.plants import HOME_LATITUDE, HOME_LONGITUDE, NORTH_M, Truth
+from keel.plants.power import Battery
 
 REST = [0.0, 0.0, -9.81, 0.0, 0.0, 0.0]
 IMU = [

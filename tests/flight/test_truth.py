@@ -7,10 +7,11 @@ from typing import Any
 
 import pytest
 
-from keel.flight import loop, plants, scenario
+from keel.flight import loop, scenario
 from keel.flight.library import Copter
 from keel.flight.loop import Flight, Order
 from keel.flight.scenario import Quality
+from keel.plants import plants
 
 HOVER = scenario.read("hover")
 LENGTH_S = 6.0

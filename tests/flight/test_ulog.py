@@ -15,8 +15,8 @@ import pytest
 from pyulog import ULog
 
 from keel.base.errors import ToolError
-from keel.flight import log as log_tool
-from keel.flight import log_plots
+from keel.logs import log as log_tool
+from keel.logs import log_plots
 from keel.timeline import ulog
 
 FLIPS = 1500

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import unittest
 
-from keel.boards.capture import Capture
-from keel.boards.dma_uart import COMPLETE, EN, FCR, HALF, M0AR, NDTR, PAR, STREAM_CR, DmaUartError
-from keel.boards.pulses import ARR, CCER, CCMR1, CCR1, CR1, DIER, EGR, PSC, SR
+from keel.emulator.capture import Capture
+from keel.emulator.dma_uart import COMPLETE, EN, FCR, HALF, M0AR, NDTR, PAR, STREAM_CR, DmaUartError
+from keel.emulator.pulses import ARR, CCER, CCMR1, CCR1, CR1, DIER, EGR, PSC, SR
 
 RING, SIZE = 0x2000_1000, 4
 # RM0410: channel 7, high priority, half words at both ends, memory counts, circular.

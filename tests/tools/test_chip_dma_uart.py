@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import unittest
 
-from keel.boards.dma_uart import (
+from keel.emulator.dma_uart import (
     BRR,
     COMPLETE,
     CR1,

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import unittest
 
-from keel.boards.i2c import (
+from keel.emulator.i2c import (
     AUTOEND,
     BUSY,
     CR1,
@@ -27,7 +27,7 @@ from keel.boards.i2c import (
     I2cError,
     timing_faults,
 )
-from keel.boards.ist8310 import ADDRESS, Ist8310
+from keel.emulator.ist8310 import ADDRESS, Ist8310
 
 TIMING = 0x10A6102D  # That of the driver, at 54 MHz.
 

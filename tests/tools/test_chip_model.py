@@ -17,16 +17,17 @@ from itertools import pairwise
 from pathlib import Path
 from unittest import mock
 
-from keel.boards import chip, chip_model, firmware, stack
-from keel.boards.card import SdCard
-from keel.boards.chip import PWR, RCC, Chip, ModelError
-from keel.boards.fram import Fram
-from keel.boards.ms5611 import check_of
-from keel.boards.pulses import Pulse, State
+from keel.boards import firmware, stack
 from keel.boards.rebuilt import SOURCES
 from keel.boards.sockets import pin_of, read_sockets
 from keel.boards.stack_bounds import EXCEPTION_FRAME_B
-from keel.boards.wiring import WIRINGS
+from keel.emulator import chip, chip_model
+from keel.emulator.card import SdCard
+from keel.emulator.chip import PWR, RCC, Chip, ModelError
+from keel.emulator.fram import Fram
+from keel.emulator.ms5611 import check_of
+from keel.emulator.pulses import Pulse, State
+from keel.emulator.wiring import WIRINGS
 from keel.install import Toolchain
 
 ROOT = Path(__file__).resolve().parents[2]

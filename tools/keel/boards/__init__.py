@@ -10,6 +10,5 @@ call_graph         who calls whom, and with which frame: from the compiler and f
 stack_bounds       the deepest paths, with what the compiler cannot know of calls
 register_headers   the facts that the register headers state
 register_databases the same facts in two independent databases
-chip, processor    a model of the STM32F767: its peripherals, and the core that runs an image
 packages           modules of the Python packages that the toolchain has
 """

@@ -28,7 +28,7 @@ from keel.flight.board_tasks import BoardTask, BoardTasks
 from keel.flight.library import SIM, Copter, Key, Link
 from keel.install import Toolchain
 
-BOARDS = ("fmuv5",)
+BOARDS = {"fmuv5": 2}  # With so many inertial units.
 APPLICATION = "copter"
 FOLDER = "bsp/model"
 HEADER = f"{FOLDER}/board_in_plant.h"

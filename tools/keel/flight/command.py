@@ -24,16 +24,18 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import write_json
-from keel.flight import board, library, plants, scenario, tables
+from keel.flight import board, library, scenario, tables
 from keel.flight.crew import Job, Outcome, all_flown
 from keel.flight.loop import Order
 from keel.flight.varied import order_of
 from keel.install import Toolchain
+from keel.plants import plants
 from keel.timeline import command as schedule
 
 BUILD = ROOT / "build/fly"
@@ -91,7 +93,8 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
         name = report_name(options)
         picture = None if options.no_pictures else options.build / f"{name}.svg"
         log = options.build / f"{name}.ulg"
-        return [Job(name, order_of(options.seed), copter, picture, log, options.trace)]
+        order = order_for(options, order_of(options.seed))
+        return [Job(name, order, copter, picture, log, options.trace)]
     known = scenario.names(options.scenarios)
     names = [options.scenario] if options.scenario else known
     if not names:
@@ -110,12 +113,19 @@ def jobs_of(options: argparse.Namespace, copter: Path) -> list[Job]:
                 picture = None if options.no_pictures else options.build / f"{made}.svg"
                 wanted = options.logs or options.scenario or options.trace or found.needs_card
                 log = options.build / f"{made}.ulg" if wanted else None
-                jobs.append(
-                    Job(name, Order(found, plant, found.seed), copter, picture, log, options.trace)
-                )
+                order = order_for(options, Order(found, plant, found.seed))
+                jobs.append(Job(name, order, copter, picture, log, options.trace))
     if not jobs:
         raise ToolError(f"{options.scenario or 'no scenario'}: is not flown in {options.plant}")
     return jobs
+
+
+def order_for(options: argparse.Namespace, order: Order) -> Order:
+    """The same with as many inertial units as the board has, if one flies."""
+    if not options.board:
+        return order
+    own = scenario.with_units(order.scenario, board.BOARDS[options.board])
+    return replace(order, scenario=own)
 
 
 def prefix(options: argparse.Namespace) -> str:

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 from keel.base.errors import ToolError, unknown
 from keel.flight.library import NO_BOARD, Copter
-from keel.flight.plants import MOTORS, THRUST_POWER
-from keel.flight.power import Battery
 from keel.flight.scenario import Fault, FirstFix, Shaking
 from keel.flight.sensors import Broken
+from keel.plants.plants import MOTORS, THRUST_POWER
+from keel.plants.power import Battery
 
 DRIFT_MOST = 3.0  # rad/s
 

@@ -19,16 +19,17 @@ from typing import Any
 
 import numpy as np
 
-from keel.flight import device_frames, pins, plants, wind
+from keel.flight import device_frames, pins
 from keel.flight.faults import Faults
 from keel.flight.library import Copter, Key, Link, checks_of, facts_of, modes, states
 from keel.flight.pilot import Pilot, Sight
 from keel.flight.pins import Pins
-from keel.flight.plants import Airframe, Plant, Truth
-from keel.flight.power import Battery
 from keel.flight.receivers import RADIO, RADIO_LINES, Receiver
 from keel.flight.scenario import Quality, Scenario
 from keel.flight.sensors import Broken, Inertial, Slow
+from keel.plants import plants, wind
+from keel.plants.plants import Airframe, Plant, Truth
+from keel.plants.power import Battery
 
 ROW_MS = 5  # A row of the trace.
 RADIO_FRAMES = {"sbus": device_frames.sbus, "crsf": device_frames.crsf, "ibus": device_frames.ibus}

@@ -24,8 +24,8 @@ from rich.table import Table
 
 from keel.base.errors import ROOT
 from keel.base.files import write_json
-from keel.flight import mujoco_plant as plant
-from keel.flight.plants import THRUST_POWER
+from keel.plants import mujoco_plant as plant
+from keel.plants.plants import THRUST_POWER
 
 PARAMETERS = ROOT / "specs/parameters/copter.toml"
 REPORT = Path("build/margins.json")

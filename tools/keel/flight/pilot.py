@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from keel.flight.plants import Truth
 from keel.flight.scenario import Hand, Scenario
+from keel.plants.plants import Truth
 
 MIDDLE, WAY = 1500, 512
 OFF, ON = 1000, 2000

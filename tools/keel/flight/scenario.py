@@ -428,6 +428,22 @@ def read(name: str, folder: Path = FOLDER) -> Scenario:
     return found
 
 
+def with_units(found: Scenario, units: int) -> Scenario:
+    """A scenario with fewer inertial units than its three: the last of them fails in the place of
+    those that are not there. Two without one of them land, so what the flight would be without the
+    fault is no limit then."""
+    faults: list[Fault] = []
+    for fault in found.fault:
+        unit = fault.unit and min(fault.unit, units)
+        here = fault if unit == fault.unit else fault.model_copy(update={"unit": unit})
+        faults += [] if here in faults else [here]
+    limits = found.limits
+    if faults != found.fault:
+        limits = limits.model_copy(update={"without_fault_deg": None})
+    options = found.options.model_copy(update={"imus": units})
+    return found.model_copy(update={"fault": faults, "limits": limits, "options": options})
+
+
 def data_of(text: str) -> dict[str, Any]:
     """The keys of a text; none when it is no TOML, which its reader then tells."""
     try:

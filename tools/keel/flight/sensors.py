@@ -16,7 +16,9 @@ from typing import Any
 import numpy as np
 
 from keel.flight import device_frames
-from keel.flight.plants import (
+from keel.flight.receivers import SATELLITES, Receiver
+from keel.flight.scenario import Place, Quality, Shaking
+from keel.plants.plants import (
     EAST_M,
     HOME_ALTITUDE_M,
     NORTH_M,
@@ -25,9 +27,7 @@ from keel.flight.plants import (
     metres_per_degree,
     standard_temperature,
 )
-from keel.flight.power import Battery
-from keel.flight.receivers import SATELLITES, Receiver
-from keel.flight.scenario import Place, Quality, Shaking
+from keel.plants.power import Battery
 
 BLOCK = 1000
 UNITS = 3

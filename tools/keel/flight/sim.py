@@ -25,12 +25,13 @@ from pathlib import Path
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text, write_text
-from keel.flight import library, plants, scenario
+from keel.flight import library, scenario
 from keel.flight.library import Copter, Key, Link
 from keel.flight.live import Address, Line, Live, address_of
 from keel.flight.loop import Crashed, NotFlown, Order
 from keel.flight.pilot import Bystander, Pilot
 from keel.install import Toolchain
+from keel.plants import plants
 
 BUILD = ROOT / "build/sim"
 GROUND_STATIONS = "127.0.0.1:14550"

@@ -11,11 +11,12 @@ import numpy as np
 
 from keel.base.errors import ROOT
 from keel.base.files import sha256_of
-from keel.flight import library, plants
+from keel.flight import library
 from keel.flight.loop import Order
-from keel.flight.plants import Airframe
 from keel.flight.scenario import Quality, Scenario, Shaking
 from keel.install.groups import HASHES, PROJECT, requirements_of
+from keel.plants import plants
+from keel.plants.plants import Airframe
 
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0

@@ -15,17 +15,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 from keel.base.errors import ROOT
-from keel.boards.bmi055 import Bmi055Part
 from keel.boards.board import application_of
-from keel.boards.chip import Chip
-from keel.boards.dma_uart import PLAIN, SBUS, Bits
 from keel.boards.firmware import Builder
-from keel.boards.icm20689 import Icm20689
-from keel.boards.motion import Motion
-from keel.boards.processor import Processor
-from keel.boards.pulses import FLOATS, LOW, Pulse, State
 from keel.boards.sockets import read_sockets
-from keel.boards.wiring import WIRINGS
+from keel.emulator.bmi055 import Bmi055Part
+from keel.emulator.chip import Chip
+from keel.emulator.dma_uart import PLAIN, SBUS, Bits
+from keel.emulator.icm20689 import Icm20689
+from keel.emulator.motion import Motion
+from keel.emulator.processor import Processor
+from keel.emulator.pulses import FLOATS, LOW, Pulse, State
+from keel.emulator.wiring import WIRINGS
 from keel.flight import device_frames
 from keel.install import Toolchain
 

@@ -22,10 +22,10 @@ from keel.base.files import read_text, sha256_of, write_text
 from keel.base.source import digest_of_tree
 from keel.base.verdict_cache import Cache, digest
 from keel.boards.board import read_board
-from keel.boards.chip import ModelError
 from keel.boards.firmware import Builder
 from keel.config import Mistake as Slip
 from keel.config import Table, Text, read_toml
+from keel.emulator.chip import ModelError
 from keel.install import Toolchain
 from keel.qualify.board_trials import PROGRAMS, TRIALS
 

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import mujoco
 
-from keel.flight.plants import (
+from keel.plants.plants import (
     EAST_M,
     HOME_ALTITUDE_M,
     HOME_LATITUDE,

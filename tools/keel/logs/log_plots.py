@@ -16,7 +16,7 @@ from rich.table import Table
 
 from keel.base.plotting import BLUE, COLOURS, GREEN, GREY, ORANGE, RED, new_figure, write_svg
 from keel.flight.library import states
-from keel.flight.spectrum import Spectrum, rate_of, spectrum
+from keel.logs.spectrum import Spectrum, rate_of, spectrum
 from keel.timeline.ulog import Log
 
 if TYPE_CHECKING:

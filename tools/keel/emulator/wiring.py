@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from keel.boards.spi import SPI1, SPI2, SPI4, Bus, Pin, Seat
+from keel.emulator.spi import SPI1, SPI2, SPI4, Bus, Pin, Seat
 
 RCC = 0x4002_3800
 AHB1ENR, APB1ENR, APB2ENR = RCC + 0x30, RCC + 0x40, RCC + 0x44

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from keel.flight.log_plots import columns
+from keel.logs.log_plots import columns
 
 if TYPE_CHECKING:
     from keel.timeline.ulog import Log

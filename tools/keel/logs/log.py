@@ -21,8 +21,9 @@ from pathlib import Path
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import read_text
-from keel.flight import log_plots, tables
-from keel.flight.own_field import own_field
+from keel.flight import tables
+from keel.logs import log_plots
+from keel.logs.own_field import own_field
 from keel.timeline import ulog
 
 TOLD = 20  # Places of damage, one by one.

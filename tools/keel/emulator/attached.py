@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from keel.base.errors import ToolError
-from keel.boards.capture import OWN, TIM8, Capture
-from keel.boards.dma_uart import UARTS, DmaUartError, Line
-from keel.boards.i2c import I2c
-from keel.boards.spi import Pin
-from keel.boards.wiring import AHB1ENR, APB1ENR, APB2ENR, LineWiring
+from keel.emulator.capture import OWN, TIM8, Capture
+from keel.emulator.dma_uart import UARTS, DmaUartError, Line
+from keel.emulator.i2c import I2c
+from keel.emulator.spi import Pin
+from keel.emulator.wiring import AHB1ENR, APB1ENR, APB2ENR, LineWiring
 
 DMAS = {1: 0x4002_6000, 2: 0x4002_6400}
 I2C3 = 0x4000_5C00

@@ -31,12 +31,12 @@ from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program, unknown
 from keel.base.files import write_bytes, write_json
 from keel.boards.built import read_built
-from keel.boards.card import SdCard
-from keel.boards.chip import BROKEN, OPTIONS, Chip
-from keel.boards.fram import Fram
-from keel.boards.processor import Processor
 from keel.boards.sockets import read_sockets
-from keel.boards.wiring import WIRINGS
+from keel.emulator.card import SdCard
+from keel.emulator.chip import BROKEN, OPTIONS, Chip
+from keel.emulator.fram import Fram
+from keel.emulator.processor import Processor
+from keel.emulator.wiring import WIRINGS
 from keel.install import Toolchain
 
 REPORT = "build/model"

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from keel.boards.motion import Motion
+from keel.emulator.motion import Motion
 
 IDENTITY, OTHER = 0x98, 0x12  # Its own, and that of an ICM-20602.
 WHO_AM_I, POWER, SAMPLE = 0x75, 0x6B, 0x3B

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from keel.boards.dma_uart import (
+from keel.emulator.dma_uart import (
     CIRC,
     COMPLETE,
     DTCM,
@@ -28,7 +28,7 @@ from keel.boards.dma_uart import (
     STREAM_CR,
     DmaUartError,
 )
-from keel.boards.pulses import ARR, CCER, CCMR1, CCR1, CR1, DIER, EGR, PSC, SR
+from keel.emulator.pulses import ARR, CCER, CCMR1, CCR1, CR1, DIER, EGR, PSC, SR
 
 TIM8 = 0x4001_0400
 OWN = (2, 2, 7)  # DMA, stream and channel that hear channel 1 (RM0410, table 28).

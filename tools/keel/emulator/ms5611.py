@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from keel.boards.motion import mixed
+from keel.emulator.motion import mixed
 
 # The data sheet's example: with these the pressure is 1000.09 mbar and it is 20.07 degrees warm.
 COEFFICIENTS = (40127, 36924, 23317, 23282, 33464, 28312)

@@ -97,10 +97,10 @@ def standard_temperature(pressure_pa: float) -> float:
 def make(name: str, airframe: Airframe, heading_deg: float) -> Plant:
     """A plant by its name, on the ground, with its nose there."""
     if name == "jsbsim":
-        from keel.flight.jsbsim_plant import JsbsimPlant
+        from keel.plants.jsbsim_plant import JsbsimPlant
 
         return JsbsimPlant(airframe, heading_deg)
-    from keel.flight.mujoco_plant import MujocoPlant
+    from keel.plants.mujoco_plant import MujocoPlant
 
     return MujocoPlant(airframe, heading_deg)
 

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from keel.boards.chip import CALIBRATION, SCB, SYSTEM, UID, UID_PLACE, Chip, ModelError
 from keel.boards.packages import load
+from keel.emulator.chip import CALIBRATION, SCB, SYSTEM, UID, UID_PLACE, Chip, ModelError
 from keel.install import Toolchain
 
 ITCM, FLASH, DTCM, SRAM, BACKUP = 0x0, 0x0800_0000, 0x2000_0000, 0x2002_0000, 0x4002_4000

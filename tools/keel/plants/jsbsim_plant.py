@@ -17,7 +17,7 @@ from typing import Any
 import jsbsim
 
 from keel.base.errors import ToolError
-from keel.flight.plants import (
+from keel.plants.plants import (
     EAST_M,
     HOME_ALTITUDE_M,
     HOME_LATITUDE,

@@ -8,21 +8,21 @@ from dataclasses import dataclass
 from functools import partial
 
 from keel.base.errors import ToolError
-from keel.boards.attached import DMAS, I2C3, Attached, ClockError
-from keel.boards.bmi055 import ACCELEROMETER_ID, GYROSCOPE_ID, Bmi055Part
-from keel.boards.capture import TIM8, Capture
-from keel.boards.card import CardError, CardHost, SdCard
-from keel.boards.dma_uart import UARTS, DmaUartError
-from keel.boards.fram import Fram
-from keel.boards.i2c import CR2 as I2C_CR2
-from keel.boards.i2c import START, I2c, I2cError
-from keel.boards.icm20689 import IDENTITY, OTHER, Icm20689
-from keel.boards.ist8310 import ADDRESS as IST8310_ADDRESS
-from keel.boards.ist8310 import Ist8310
-from keel.boards.ms5611 import Ms5611
-from keel.boards.pulses import Outputs, PulseError, State, timers
-from keel.boards.spi import DATA, SPI1, SPI2, SPI4, Device, Registers, SpiError, Spis
-from keel.boards.wiring import BMI055, UART7, USART3, Wiring
+from keel.emulator.attached import DMAS, I2C3, Attached, ClockError
+from keel.emulator.bmi055 import ACCELEROMETER_ID, GYROSCOPE_ID, Bmi055Part
+from keel.emulator.capture import TIM8, Capture
+from keel.emulator.card import CardError, CardHost, SdCard
+from keel.emulator.dma_uart import UARTS, DmaUartError
+from keel.emulator.fram import Fram
+from keel.emulator.i2c import CR2 as I2C_CR2
+from keel.emulator.i2c import START, I2c, I2cError
+from keel.emulator.icm20689 import IDENTITY, OTHER, Icm20689
+from keel.emulator.ist8310 import ADDRESS as IST8310_ADDRESS
+from keel.emulator.ist8310 import Ist8310
+from keel.emulator.ms5611 import Ms5611
+from keel.emulator.pulses import Outputs, PulseError, State, timers
+from keel.emulator.spi import DATA, SPI1, SPI2, SPI4, Device, Registers, SpiError, Spis
+from keel.emulator.wiring import BMI055, UART7, USART3, Wiring
 
 # Bases of the peripherals (RM0410, table 1).
 TIM5, IWDG, PWR, TIM1, TIM4 = 0x4000_0C00, 0x4000_3000, 0x4000_7000, 0x4001_0000, 0x4000_0800

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from keel.boards.motion import Motion
+from keel.emulator.motion import Motion
 
 GYROSCOPE_ID, ACCELEROMETER_ID = 0x0F, 0xFA
 CHIP_ID, SAMPLE, TEMPERATURE, BANDWIDTH, POWER, RESET = 0x00, 0x02, 0x08, 0x10, 0x11, 0x14
