@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -23,6 +24,7 @@ from keel.flight.pilot import Pilot, Sight
 ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
 STEP_US = 10
 BOOTS_MS = 2000
+APART_ROWS = 20  # Of 5 ms each: by so much a state may begin earlier or later.
 RATE_COUNT = math.radians(1 / 16.4)
 # Of each unit, what a count is, by the data sheets: ICM-20689 and BMI055.
 COUNTS = ((9.80665 / 2048, RATE_COUNT), (9.80665 / 128, RATE_COUNT))
@@ -53,12 +55,27 @@ def flight(copter: Copter, asked: scenario.Scenario, pilot: type[Pilot] = Pilot)
     return trace
 
 
+def begins(trace: Trace) -> list[int]:
+    """The rows with which states begin, and the end."""
+    changes = np.flatnonzero(np.diff(trace.view["state"])) + 1
+    return [0, *changes.tolist(), len(trace.truth)]
+
+
+def latest(trace: Trace, other: Trace) -> int:
+    """By how many rows the begins of states are apart at most."""
+    return max(abs(a - b) for a, b in zip(begins(trace), begins(other), strict=True))
+
+
 def largest(trace: Trace, other: Trace, names: tuple[str, ...]) -> float:
-    """By how much columns differ at most."""
-    rows = min(len(trace.truth), len(other.truth))
-    return max(
-        float(np.abs(trace.column(name)[:rows] - other.column(name)[:rows]).max()) for name in names
-    )
+    """By how much columns differ at most, each state counted from its begin: who comes home two
+    centimetres earlier may land a turn earlier."""
+    found = []
+    for own, its in zip(pairwise(begins(trace)), pairwise(begins(other)), strict=True):
+        rows = min(own[1] - own[0], its[1] - its[0])
+        for name in names:
+            between = trace.column(name)[own[0] :][:rows] - other.column(name)[its[0] :][:rows]
+            found.append(float(np.abs(between).max()))
+    return max(found)
 
 
 def since_begun(trace: Trace, kind: str) -> np.ndarray:
@@ -111,6 +128,7 @@ def check_alike(copter: Copter, board: BoardCopter, name: str) -> None:
         host, own = flight(copter, asked, LatePilot), flight(board, asked, LatePilot)
     assert own.column("up").max() > 2.5
     assert loop.state_names(own) == loop.state_names(host)
+    assert latest(own, host) <= APART_ROWS
     assert math.degrees(largest(own, host, ("roll", "pitch"))) <= ROLL_PITCH_DEG
     assert largest(own, host, ("north", "east", "up")) <= PLACE_M
     assert not since_begun(own, "skipped").any() and not since_begun(own, "overruns").any()
