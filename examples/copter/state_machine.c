@@ -105,6 +105,16 @@ static bool is_unconfirmed(const keel_virtual_imu_t *imu)
     return unconfirmed;
 }
 
+/* Whether it would fly on, and the pilot's radio is linked: a request counts with his frames. */
+static bool can_be_landed(const keel_mode_t *machine)
+{
+    const uint8_t state = machine->state;
+
+    return ((machine->settled & KEEL_MODE_RC_LINKED) != 0u) &&
+           ((state == KEEL_MODE_FLYING) || (state == KEEL_MODE_HOLDING) ||
+            (state == KEEL_MODE_RETURNING));
+}
+
 /* Nobody would see the next fault, so it lands. The pilot may know better: he moves his switch. */
 static void land_unconfirmed(copter_t *copter)
 {
@@ -118,8 +128,7 @@ static void land_unconfirmed(copter_t *copter)
     if (self->unconfirmed == 0u) {
         self->lands_unconfirmed = false;
     } else if ((self->unconfirmed >= UNCONFIRMED_RUNS) && !self->lands_unconfirmed &&
-               (self->mode.state == KEEL_MODE_FLYING) &&
-               (request->mode.answer != COPTER_ANSWER_WAITS)) {
+               can_be_landed(&self->mode) && (request->mode.answer != COPTER_ANSWER_WAITS)) {
         copter_action_request_mode(request, (uint8_t)KEEL_MODE_LAND, copter->pilot.asked);
         request->mode.answer = COPTER_ANSWER_NONE; /* Nobody waits for it. */
         self->lands_unconfirmed = true;

@@ -18,7 +18,9 @@ static copter_telemetry_t telemetry;
 static copter_port_t port;
 const int MEAN = KEEL_VOTER_MEAN, SINGLE = KEEL_VOTER_SINGLE, MEDIAN = KEEL_VOTER_MEDIAN,
           DISAGREE = KEEL_VOTER_DISAGREE, NONE = KEEL_VOTER_NONE, SENSORS = KEEL_ERR_SENSORS,
-          LAND = KEEL_MODE_LAND, FLYING = KEEL_MODE_FLYING, HOLDING = KEEL_MODE_HOLDING;
+          LAND = KEEL_MODE_LAND, ARMED = KEEL_MODE_ARMED, FLYING = KEEL_MODE_FLYING,
+          HOLDING = KEEL_MODE_HOLDING, RETURNING = KEEL_MODE_RETURNING,
+          LANDING = KEEL_MODE_LANDING, TERMINATED = KEEL_MODE_TERMINATED;
 static void agree(keel_virtual_imu_t *imu)
 {
     for (uint32_t k = 0u; k < KEEL_VIRTUAL_IMU_CHANNELS; k++) {
@@ -50,10 +52,12 @@ void wait_for_another(int waits)
 {
     copter.request.mode.answer = waits ? COPTER_ANSWER_WAITS : COPTER_ANSWER_NONE;
 }
-/* Whether a run of the state machine, in this state, has asked to land. */
+/* Whether a run of the state machine, in this state, has asked to land; with a frame, the radio is
+ * linked. */
 int run_in(int state, int frame)
 {
     copter.state.mode.state = (uint8_t)state;
+    copter.state.mode.settled = (frame != 0) ? KEEL_MODE_RC_LINKED : 0u;
     copter.state.mode.motors = true;
     copter.request.mode.is_moved = false;
     copter.pilot.frames += (frame != 0) ? 1u : 0u;
@@ -139,13 +143,29 @@ class CopterUnits(unittest.TestCase):
         self.copter.vote(0, 0, self.number("SINGLE"))
         self.assertEqual(self.runs_until_it_lands(), RUNS)
 
-    def test_it_waits_for_flight_and_for_the_answer_to_another(self) -> None:
+    def test_it_asks_in_each_state_that_would_fly_on(self) -> None:
+        for state, runs in (
+            ("ARMED", 0),
+            ("FLYING", RUNS),
+            ("HOLDING", RUNS),
+            ("RETURNING", RUNS),
+            ("LANDING", 0),
+            ("TERMINATED", 0),
+        ):
+            with self.subTest(state=state):
+                self.copter.start(2)
+                self.copter.vote(0, 0, self.number("NONE"))
+                self.assertEqual(self.runs_until_it_lands(state), runs)
+
+    def test_it_waits_for_the_link_and_for_the_answer_to_another(self) -> None:
+        """A request counts with frames: one that is made without a link would be lost."""
         self.copter.vote(0, 0, self.number("NONE"))
-        self.assertEqual(self.runs_until_it_lands("HOLDING"), 0)
+        for _ in range(2 * RUNS):
+            self.assertEqual(self.copter.run_in(self.number("RETURNING"), 0), 0)
         self.copter.wait_for_another(1)
-        self.assertEqual(self.copter.run_in(self.number("FLYING"), 0), 0)
+        self.assertEqual(self.copter.run_in(self.number("RETURNING"), 1), 0)
         self.copter.wait_for_another(0)
-        self.assertEqual(self.copter.run_in(self.number("FLYING"), 0), 1)
+        self.assertEqual(self.copter.run_in(self.number("RETURNING"), 1), 1)
 
 
 if __name__ == "__main__":
