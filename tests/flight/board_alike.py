@@ -24,7 +24,8 @@ from keel.flight.pilot import Pilot, Sight
 ROLL_PITCH_DEG, PLACE_M = 1.0, 0.5
 STEP_US = 10
 BOOTS_MS = 2000
-APART_ROWS = 20  # Of 5 ms each: by so much a state may begin earlier or later.
+TURN_ROWS = 4  # Of 5 ms each: a turn of the state machine.
+APART_ROWS = 20  # By so much a state may begin earlier or later.
 RATE_COUNT = math.radians(1 / 16.4)
 # Of each unit, what a count is, by the data sheets: ICM-20689 and BMI055.
 COUNTS = ((9.80665 / 2048, RATE_COUNT), (9.80665 / 128, RATE_COUNT))
@@ -67,15 +68,30 @@ def latest(trace: Trace, other: Trace) -> int:
 
 
 def largest(trace: Trace, other: Trace, names: tuple[str, ...]) -> float:
-    """By how much columns differ at most, each state counted from its begin: who comes home two
-    centimetres earlier may land a turn earlier."""
-    found = []
-    for own, its in zip(pairwise(begins(trace)), pairwise(begins(other)), strict=True):
-        rows = min(own[1] - own[0], its[1] - its[0])
-        for name in names:
-            between = trace.column(name)[own[0] :][:rows] - other.column(name)[its[0] :][:rows]
-            found.append(float(np.abs(between).max()))
-    return max(found)
+    """By how much columns differ at most. Each state counts from its begin, or from a turn of the
+    state machine before or behind it: who comes home two centimetres earlier lands a turn earlier.
+    """
+    return max(
+        min(apart(trace, own, other, its, names, turn) for turn in (-TURN_ROWS, 0, TURN_ROWS))
+        for own, its in zip(pairwise(begins(trace)), pairwise(begins(other)), strict=True)
+    )
+
+
+def apart(
+    trace: Trace,
+    own: tuple[int, int],
+    other: Trace,
+    its: tuple[int, int],
+    names: tuple[str, ...],
+    later: int,
+) -> float:
+    """By how much columns of a state differ, where the other one's is read so many rows later."""
+    rows = min(own[1] - own[0], its[1] - its[0]) - abs(later)
+    here, there = own[0] + max(0, -later), its[0] + max(0, later)
+    return max(
+        float(np.abs(trace.column(it)[here:][:rows] - other.column(it)[there:][:rows]).max())
+        for it in names
+    )
 
 
 def since_begun(trace: Trace, kind: str) -> np.ndarray:
