@@ -14,15 +14,15 @@ from typing import Any
 import numpy as np
 import pytest
 import shared_builds
-from board_alike import flight, of_two_units
 from test_board_lines import pymavlink
 from test_copter_image import tools
 
 from keel.base.errors import ROOT, ToolError
 from keel.boards.dwarf import Variables
-from keel.flight import board
+from keel.flight import board, scenario
 from keel.flight.board import BoardCopter
 from keel.flight.library import Link
+from keel.flight.loop import Flight, Order
 from keel.install import Toolchain
 from keel.timing import taskset
 
@@ -253,10 +253,13 @@ def test_the_board_declares_what_is_analysed(flown: BoardCopter) -> None:
 
 
 def test_equal_flights_are_equal(flown: BoardCopter) -> None:
-    short = of_two_units("hover").model_copy(update={"duration_s": 4.0})
-    first, again = flight(flown, short), flight(flown, short)
+    hover = scenario.read("hover").model_copy(update={"duration_s": 4.0})
+    short = Order(scenario.with_units(hover, board.BOARDS["fmuv5"]), "jsbsim", hover.seed)
+    first, again = (Flight(flown, short).fly() for _ in range(2))
     assert first.digest == again.digest
     assert first.column("up").max() > 1.0
+    # The bursts of both units alone are 34 bytes of 8 bits at 6.75 MHz: 40.3 us.
+    assert next(it for it in flown.timed() if it.name == "Background IMU").longest_us > 40
 
 
 def test_a_task_that_takes_longer_is_an_overrun(flown: BoardCopter) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from keel.flight import judge
+from keel.flight import alike, judge
 from keel.flight.library import modes, states
 from keel.flight.loop import TRUTH, Trace
 from keel.flight.montecarlo import by_fault, ranks
@@ -181,3 +181,37 @@ def test_percentiles_and_faults() -> None:
     ]
     assert ranks(flights) == {"sink_max": {"p50": 50.0, "p90": 90.0, "p99": 99.0, "p100": 100.0}}
     assert list(by_fault(flights)) == ["no fault", "imu_freeze"]
+
+
+def two_states(roll_deg: Any, begins: int) -> Trace:
+    """Flying, then landing from a row on; the roll angle may change."""
+    trace = flight(roll=np.radians(roll_deg))
+    trace.view["state"] = states().index("flying")
+    trace.view["state"][begins:] = states().index("landing")
+    return trace
+
+
+def test_two_flights_are_as_far_apart_as_their_states_row_by_row() -> None:
+    level = np.zeros(ROWS)
+    tilted = np.where(np.arange(ROWS) == 70, 1.5, 0.0)
+    assert all(one.good for one in alike.differences(two_states(level, 50), two_states(level, 50)))
+    begin, roll, pitch, place = alike.differences(two_states(level, 50), two_states(tilted, 50))
+    assert (begin.good, roll.good, pitch.good, place.good) == (True, False, True, True)
+    assert roll.value == "1.50 deg"
+    moved = flight(north=0.6)
+    assert alike.differences(flight(), moved)[3].value == "0.60 m"
+    assert not alike.differences(flight(), moved)[3].good
+
+
+def test_what_a_turn_later_explains_is_no_difference_and_two_turns_are() -> None:
+    """A turn of the state machine is four rows."""
+    slope = np.arange(ROWS) * 0.5  # In degrees: 2 a turn.
+    for later, good in ((0, True), (4, True), (8, False)):
+        shifted = two_states(slope + 0.5 * later, 50)
+        assert alike.differences(two_states(slope, 50), shifted)[1].good == good
+    # Each state counts from its begin; 100 ms are 20 rows.
+    for begins, good in ((70, True), (71, False)):
+        found = alike.differences(
+            two_states(np.zeros(ROWS), 50), two_states(np.zeros(ROWS), begins)
+        )
+        assert found[0].good == good

@@ -105,6 +105,23 @@ def test_a_boards_flights_have_as_many_units_as_the_board() -> None:
     assert [fault.unit for fault in host.order.scenario.fault] == [3]
 
 
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        (["--scenario", "hover"], "--compare: with --board and --scenario"),
+        (["--board", "fmuv5"], "--compare: with --board and --scenario"),
+        (["--board", "fmuv5", "--scenario", "hover", "--logs"], "leaves no log"),
+        (["--board", "fmuv5", "--scenario", "hover", "--plant", "mujoco"], "is in JSBSim"),
+        (["--board", "fmuv5", "--scenario", "board_i2c_low"], "a board's own"),
+    ],
+)
+def test_what_cannot_be_compared(
+    more: list[str], told: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert fly.main(["--compare", "--build", str(tmp_path), *more]) == 2
+    assert told in capsys.readouterr().err
+
+
 def test_an_unknown_name_and_the_nearest(tmp_path: Path) -> None:
     read(tmp_path, GOOD, "hover")
     with pytest.raises(ToolError, match="did you mean hover"):

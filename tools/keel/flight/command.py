@@ -13,7 +13,8 @@ With --board the very image of a board flies, on a model of its chip and its dev
 scenarios, the same judge, the same limits. Units there are as many as the board has. A log is
 wanted as on the host; it comes from a card, without the last second, and without the runs of tasks.
 With --scenario a second table has each task's longest run beside its budget, and the report has
-them for every flight.
+them for every flight. With --compare the host's copter flies the scenario, too, in JSBSim, with as
+many units, after as long a boot: a table says by how much the two flights differ.
 
 Exit status: 0 when every flight keeps its limits (or breaks them, where that is expected), 1 when
 not, 2 when it could not be flown.
@@ -30,8 +31,9 @@ from pathlib import Path
 from keel.base.arguments import Parser
 from keel.base.errors import ROOT, ToolError, program
 from keel.base.files import write_json
-from keel.flight import board, library, scenario, tables
+from keel.flight import alike, board, library, scenario, tables
 from keel.flight.crew import Job, Outcome, all_flown
+from keel.flight.library import Copter
 from keel.flight.loop import Order
 from keel.flight.varied import order_of
 from keel.install import Toolchain
@@ -77,11 +79,18 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
         action="store_true",
         help="with the log, each run of each task, for Perfetto and as a page",
     )
+    parser.add_argument(
+        "--compare", action="store_true", help="a board's flight of a scenario with the host's"
+    )
     found = parser.parse_args(arguments)
     if found.seed is not None and (found.scenario or found.plant):
         raise ToolError("--seed: says scenario and plant by itself")
     if found.board and found.trace:
         raise ToolError("--trace: the log of an image has no runs of tasks")
+    if found.compare and not (found.board and found.scenario):
+        raise ToolError("--compare: with --board and --scenario")
+    if found.compare and (found.plant or found.logs):
+        raise ToolError("--compare: is in JSBSim, and leaves no log")
     if found.jobs < 1:
         raise ToolError(f"--jobs: expected 1 or more, found {found.jobs}")
     return found
@@ -177,16 +186,50 @@ def tell(outcomes: Sequence[Outcome], report: Path, one: bool) -> None:
     bad = tables.failures(outcomes)
     for line in bad:
         print(line)
-    where = report.relative_to(ROOT) if report.is_relative_to(ROOT) else report
     print(
         f"fly: {len(outcomes)} flights, {len(outcomes) - len(bad)} good, {len(bad)} not; "
-        f"{where} has them"
+        f"{shown(report)} has them"
     )
+
+
+def compare(options: argparse.Namespace) -> int:
+    """Fly a scenario with the board's image and with the host's copter; tell how they differ."""
+    report: Path = options.build / f"{report_name(options)}-compared.json"
+    report.unlink(missing_ok=True)
+    asked = scenario.read(options.scenario, options.scenarios)
+    if own := scenario.of_board(asked):
+        raise ToolError(f"{options.scenario}: {library.NO_BOARD.format(own[0])}")
+    build(options)
+    host = Copter(library.build(Toolchain(), options.build))
+    found = alike.compared(host, board.BoardCopter(library_of(options)), asked, options.board)
+    good = all(finding.good for finding in found)
+    write_json(
+        report,
+        {
+            "schema": SCHEMA,
+            "board": options.board,
+            "sources_sha256": library.digest_of(),
+            "good": good,
+            "findings": [finding.as_json() for finding in found],
+        },
+    )
+    title = f"{options.scenario} in JSBSim: the image of {options.board} and the host's copter"
+    tables.console().print(tables.limits(title, found))
+    word = "alike" if good else "not alike"
+    print(f"fly: the image and the host's copter fly {word}; {shown(report)} has the figures")
+    return 0 if good else 1
+
+
+def shown(report: Path) -> Path:
+    """A report's place, as it is printed."""
+    return report.relative_to(ROOT) if report.is_relative_to(ROOT) else report
 
 
 def fly(arguments: Sequence[str] | None) -> int:
     """Build, fly, write, tell."""
     options = parsed(arguments)
+    if options.compare:
+        return compare(options)
     jobs = jobs_of(options, library_of(options))
     report: Path = options.build / f"{report_name(options)}.json"
     report.unlink(missing_ok=True)  # What an older run found is not what this one finds.

@@ -66,10 +66,15 @@ def all_flights(outcomes: Sequence[Outcome]) -> Table:
 def one_flight(outcome: Outcome) -> Table:
     """A row for each limit."""
     title = f"{outcome.name} in {outcome.plant}, seed {outcome.seed}: {' > '.join(outcome.states)}"
+    return limits(title, outcome.findings)
+
+
+def limits(title: str, findings: Sequence[Finding]) -> Table:
+    """A row for each limit."""
     table = Table(title=title, title_justify="left")
     for heading in ("limit", "flight", "at most, or wanted", ""):
         table.add_column(heading)
-    for finding in outcome.findings:
+    for finding in findings:
         word = "[green]holds[/]" if finding.good else "[red]BROKEN[/]"
         table.add_row(finding.name, finding.value, finding.limit, word)
     return table
