@@ -5,13 +5,12 @@ from __future__ import annotations
 
 import pytest
 from test_board_flight import flown, made
-from test_copter_image import tools
 
 from keel.flight import alike, scenario
 from keel.flight.board import BoardCopter
 from keel.flight.library import Copter
 
-__all__ = ["flown", "made", "tools"]  # Fixtures.
+__all__ = ["flown", "made"]  # Fixtures.
 
 
 @pytest.mark.parametrize("name", ["hover", "sticks", "return_and_land"])

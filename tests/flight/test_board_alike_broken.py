@@ -6,13 +6,12 @@ from __future__ import annotations
 
 import pytest
 from test_board_flight import flown, made
-from test_copter_image import tools
 
 from keel.flight import alike, scenario
 from keel.flight.board import BoardCopter
 from keel.flight.library import Copter
 
-__all__ = ["flown", "made", "tools"]  # Fixtures.
+__all__ = ["flown", "made"]  # Fixtures.
 
 
 @pytest.mark.parametrize("name", ["radio_loss_position", "imu_freeze", "imu_silent"])

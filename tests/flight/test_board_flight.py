@@ -43,9 +43,9 @@ DEVICES = {
 
 
 @pytest.fixture(scope="module")
-def made(tools: Toolchain) -> Path:
+def made() -> Path:
     """The image's library."""
-    return shared_builds.flying_board(tools, "fmuv5")
+    return shared_builds.flying_board(Toolchain(), "fmuv5")
 
 
 @pytest.fixture

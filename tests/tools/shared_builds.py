@@ -41,6 +41,7 @@ def copy_sources(folder: Path, root: Path = ROOT) -> Path:
 
 def images(tools: Toolchain, boards: Iterable[str]) -> Path:
     """The copter's images of boards, in a copy of the sources: they do not replace the user's."""
+    tools.ensure("firmware", "fatfs")
     root = _folder("images") / "root"
     _once(root, copy_sources)
     for name in boards:
@@ -50,6 +51,7 @@ def images(tools: Toolchain, boards: Iterable[str]) -> Path:
 
 def flying_board(tools: Toolchain, name: str) -> Path:
     """The library that flies a board's image."""
+    tools.ensure("model")
     root = images(tools, (name,))
     folder = root.with_name(f"flying-{name}")
     _once(folder, lambda draft: flying.pack(tools, name, draft, root))
