@@ -36,9 +36,9 @@ void model_framing_drop(keel_framing_t *framing, uint32_t count)
     told_after = *framing;
 }
 
-/* Whether the model, if it has dropped bytes, dropped as many of the same. Apart from the assertion:
- * the search for executions that reach an assertion's blocks would have to show that none makes it
- * false. */
+/* Whether the model, if it has dropped bytes, dropped as many of the same. It is no part of the
+ * assertion: the search for what reaches the assertion's blocks would have to show that nothing
+ * makes it false. */
 static bool drops_as_told(const keel_framing_t *framing, uint32_t count, uint32_t at)
 {
     return !told_of_drop || ((count == told_drop) && framing_same(framing, &told_before, at));
