@@ -48,13 +48,15 @@ void keel_framing_drop_stand_in(keel_framing_t *framing, uint32_t count)
 {
     const keel_framing_t before = *framing;
     const uint32_t at = any_below(KEEL_FRAMING_BYTES);
-    keel_framing_t other = before;
 
     __CPROVER_assert(keel_framing_drop_may(framing, count), "precondition: keel_framing_drop");
     __CPROVER_assert(drops_as_told(framing, count, at),
                      "FRG_006_drop: as many of the same bytes as the model");
-    any_left(&other);
-    *framing = told_of_drop ? told_after : other;
+    if (told_of_drop) {
+        *framing = told_after;
+    } else {
+        any_left(framing);
+    }
     __CPROVER_assume(keel_framing_drop_does(framing, before.held, count));
     __CPROVER_assume(framing_left_at(framing, &before, count, left_place));
 }

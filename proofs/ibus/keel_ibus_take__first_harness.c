@@ -11,6 +11,17 @@
 // before it is dropped.
 #include "ibus_proof.h"
 
+static bool takes(bool right, const keel_ibus_t *ibus, const uint8_t *frame)
+{
+    return right && says(ibus, frame);
+}
+
+static bool holds_one_more(bool right, const keel_ibus_t *ibus, const uint8_t *frame, uint32_t held)
+{
+    return !right && (ibus->framing.held == (held + 1u)) &&
+           framing_holds(&ibus->framing, frame, held + 1u);
+}
+
 void keel_ibus_take__first_harness(void)
 {
     keel_ibus_t ibus = any_ibus();
@@ -29,10 +40,9 @@ void keel_ibus_take__first_harness(void)
     right = keel_ibus_take(&ibus, frame[held], elapsed_us);
 
     if (held == 31u) {
-        __CPROVER_assert(right && says(&ibus, frame), "IBU_009_taken: it is whole, and taken");
+        __CPROVER_assert(takes(right, &ibus, frame), "IBU_009_taken: it is whole, and taken");
     } else {
-        __CPROVER_assert(!right && (ibus.framing.held == (held + 1u)) &&
-                             framing_holds(&ibus.framing, frame, held + 1u),
+        __CPROVER_assert(holds_one_more(right, &ibus, frame, held),
                          "IBU_009_step: one more byte of it is held");
     }
 }
