@@ -18,3 +18,4 @@ def test_it_flies_as_the_hosts_copter_does(copter: Copter, flown: BoardCopter, n
     found = alike.compared(copter, flown, scenario.read(name), "fmuv5")
     assert [one for one in found if not one.good] == []
     assert {"states", "roll", "pitch", "place", "skipped", "rises_m"} <= {one.name for one in found}
+    assert next(one.number or 0.0 for one in found if one.name == "rises_m") > 2.5
