@@ -41,7 +41,7 @@ from keel.judge import wp_verdict as verdict
 from keel.judge import wrong_bodies as wrong
 from keel.judge.cbmc_answers import read_answer, refutation_problems
 from keel.prove import command as prove
-from keel.prove import driver, exports, job_list
+from keel.prove import driver, exports, job_list, report
 from keel.prove.proof_run import Choice, Session
 from keel.prove.times import Times
 
@@ -710,6 +710,59 @@ class Jobs(unittest.TestCase):
         times = Times(self.folder / "times.json")
         driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), ONE, times, lambda _: None)
         self.assertEqual(order, ["new", "long", "short"])
+
+    def test_contracts_and_theorems_go_first(self) -> None:
+        (self.folder / "times.json").write_text(json.dumps({"b/cbmc/long": 9, "b/wp/short": 1}))
+        order: list[str] = []
+
+        def job(kind: str, name: str) -> driver.Job:
+            def execute(_room: int) -> dict[str, Any]:
+                order.append(name)
+                return {"problems": [], "seconds": 0.0}
+
+            return driver.Job("b", kind, name, lambda: name, execute)
+
+        jobs = [job("cbmc", "new"), job("cbmc", "long"), job("wp", "short")]
+        times = Times(self.folder / "times.json")
+        driver.run_jobs(jobs, Cache(None), Runner({}, self.folder), ONE, times, lambda _: None)
+        self.assertEqual(order, ["short", "new", "long"])
+
+    def first_verdicts(self, *ended: tuple[str, str, str, list[str]]) -> list[str]:
+        """The lines of the first verdict, and how many jobs had ended when each came.
+
+        A job has a kind, a name, the status of its only goal or property, and problems."""
+        jobs = [
+            driver.Job("box", kind, name, str, lambda _: {}) for kind, name, _status, _why in ended
+        ]
+        console = report.Console(jobs, Times(self.folder / "none.json"), 1)
+        lines: list[str] = []
+        for count, (job, (_kind, _name, status, why)) in enumerate(zip(jobs, ended, strict=True)):
+            goal = [{"name": "goal", "status": status}]
+            result = {"goals": goal, "properties": goal, "problems": why, "seconds": 1.0}
+            said = io.StringIO()
+            with contextlib.redirect_stdout(said):
+                console.done(driver.Outcome(job, result, cached=False))
+            lines += [
+                f"{count + 1} {line}"
+                for line in said.getvalue().splitlines()
+                if line.startswith("first verdict")
+            ]
+        return lines
+
+    def test_the_first_verdict_comes_when_all_of_wp_is_proved(self) -> None:
+        function = ("wp", "keel_box_open", "Valid", [])
+        theorem = ("wp", "isolation:serve", "Valid", [])
+        harness = ("cbmc", "keel_box_open_harness", "SUCCESS", [])
+        [line] = self.first_verdicts(function, theorem, harness)
+        self.assertTrue(line.startswith("2 first verdict, after 0.0 min: WP proves all of its 2 "))
+        self.assertIn("the theorems of isolation;", line)
+        # Not while WP has work left, nor at the end of all, nor if anything is open or in doubt.
+        self.assertEqual(len(self.first_verdicts(harness, function, theorem)), 0)
+        self.assertEqual(len(self.first_verdicts(function, theorem)), 0)
+        unknown = ("wp", "keel_box_shut", "Unknown", ["open"])
+        self.assertEqual(self.first_verdicts(unknown, theorem, harness), [])
+        doubtful = ("wp", "keel_box_shut", "Valid", ["a warning of unsoundness"])
+        self.assertEqual(self.first_verdicts(doubtful, theorem, harness), [])
 
     def test_what_was_given_up_is_asked_again_alone_with_more_room(self) -> None:
         order: list[tuple[str, int]] = []

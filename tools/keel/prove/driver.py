@@ -49,6 +49,8 @@ class Outcome:
 
 # The limits of a job that is asked again when it is alone.
 ALONE = 2
+# The jobs that start first: contracts and theorems are the first verdict that a user waits for.
+FIRST = "wp"
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,7 @@ def run_jobs(
             waiting.append(job)
         else:
             finish(Outcome(job, known, cached=True))
-    waiting.sort(key=lambda job: (-times.expected(job.label), job.label))
+    waiting.sort(key=lambda job: (job.kind != FIRST, -times.expected(job.label), job.label))
 
     def ended(chosen: Sequence[Job], width: int, room: int) -> Iterator[Outcome]:
         tasks = [functools.partial(_execute, job, cache, room, running) for job in chosen]

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,7 +18,7 @@ from keel.c.project import KEEL, Unit
 from keel.install import Found
 from keel.judge import cbmc_answers
 from keel.judge.settings import Exceptions
-from keel.prove.driver import Job, Outcome
+from keel.prove.driver import FIRST, Job, Outcome
 from keel.prove.times import Forecast, Times, estimates
 
 # Where it stands what helps a proof that takes too long.
@@ -257,6 +258,11 @@ class Console:
         self._forecast = Forecast(estimates(labels, times.seconds), width, guessed)
         self._waiting = [(job.unit, job.kind) for job in jobs]
         self._sums: dict[tuple[str, str], tuple[int, int, float]] = {}
+        self._theorems = sorted(
+            {job.name.partition(":")[0] for job in jobs if job.kind == FIRST and ":" in job.name}
+        )
+        self._doubtful = False
+        self._start = time.monotonic()
 
     def done(self, outcome: Outcome) -> None:
         """A job has its verdict."""
@@ -279,6 +285,23 @@ class Console:
         self._waiting.remove(kind)
         if kind not in self._waiting:
             self._line(job, "", *self._sums[kind])
+        if job.kind == FIRST:
+            self._doubtful = self._doubtful or bool(outcome.problems) or proved < total
+            self._first_verdict(outcome)
+
+    def _first_verdict(self, last: Outcome) -> None:
+        """Tell that WP has proved all that it is asked, while other engines have work left."""
+        left = {kind for _unit, kind in self._waiting}
+        if last.cached or self._doubtful or FIRST in left or not left:
+            return
+        total = sum(numbers[1] for (_unit, kind), numbers in self._sums.items() if kind == FIRST)
+        theorems = f", and the theorems of {', '.join(self._theorems)}" if self._theorems else ""
+        minutes = (time.monotonic() - self._start) / 60
+        print(
+            f"first verdict, after {minutes:.1f} min: WP proves all of its {total} goals, the"
+            f" contracts' clauses{theorems}; equality with the models and wrong bodies follow",
+            flush=True,
+        )
 
     def late(self, job: Job, seconds: float) -> None:
         """A job takes long: name it, and where it stands what helps."""
