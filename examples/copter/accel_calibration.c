@@ -109,14 +109,13 @@ void copter_accel_calibration_ask(copter_accel_calibration_t *self, uint8_t leve
     }
 }
 
-static void step_rests(copter_t *copter)
+static void step_rests(copter_accel_calibration_t *self, const copter_t *copter)
 {
-    for (uint32_t unit = 0u; unit < copter->calibration.units; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         const keel_virtual_imu_sample_t *const sample = &copter->imu.unit[unit];
 
         if (sample->present) {
-            keel_calibration_rest_step(&copter->calibration.accelerometers.rest[unit],
-                                       sample->value);
+            keel_calibration_rest_step(&self->rest[unit], sample->value);
         }
     }
 }
@@ -239,15 +238,13 @@ static void step_level(copter_accel_calibration_t *self)
                      : COPTER_LEVELLED_BEYOND);
 }
 
-void copter_accel_calibration_step(copter_t *copter)
+void copter_accel_calibration_step(copter_accel_calibration_t *self, const copter_t *copter)
 {
-    copter_accel_calibration_t *const self = &copter->calibration.accelerometers;
-
     if (self->levelling == (uint8_t)COPTER_LEVELLING_NONE) {
         return;
     }
     self->waited++;
-    step_rests(copter);
+    step_rests(self, copter);
     if (copter->state.mode.motors) {
         finish(self, COPTER_LEVELLED_CANCELLED);
     } else if (self->waited > PATIENCE) {

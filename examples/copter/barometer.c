@@ -10,9 +10,8 @@ keel_status_t copter_barometer_init(copter_barometer_t *barometer)
     return keel_oversample_init(&barometer->pressure, OVERSAMPLING);
 }
 
-void copter_background_barometer(copter_t *copter)
+void copter_background_barometer(copter_barometer_t *self, const copter_t *copter)
 {
-    copter_barometer_t *const self = &copter->barometer;
     copter_barometer_sample_t sample;
 
     if (copter->port->read_barometer(copter->port->context, &sample) &&
@@ -24,9 +23,8 @@ void copter_background_barometer(copter_t *copter)
 
 /* Air is never so still that a sensor says the same for long, bit for bit: one that does is stuck.
  * Its pressures are no samples then. */
-void copter_foreground_barometer(copter_t *copter)
+void copter_foreground_barometer(copter_barometer_t *self)
 {
-    copter_barometer_t *const self = &copter->barometer;
     const float before = self->pressure_pa;
 
     if (keel_oversample_take(&self->pressure, &self->pressure_pa) == KEEL_OK) {

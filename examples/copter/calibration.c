@@ -84,10 +84,8 @@ static bool are_taken(const copter_calibration_t *self)
 
 /* Where there is a magnetometer, its field has rested, too, from before the gyroscopes' first
  * sample until after their last one. */
-static bool are_calibrated(const copter_t *copter)
+static bool are_calibrated(const copter_calibration_t *self, const copter_t *copter)
 {
-    const copter_calibration_t *const self = &copter->calibration;
-
     return are_taken(self) &&
            ((copter->magnetometer.samples == 0u) || (self->rest.state == KEEL_CALIBRATION_DONE));
 }
@@ -97,13 +95,13 @@ bool copter_has_moved(const keel_calibration_rest_t *rest)
     return (rest->restarts > 0u) || (rest->state == KEEL_CALIBRATION_REFUSED);
 }
 
-static void step_gyroscopes(copter_t *copter)
+static void step_gyroscopes(copter_calibration_t *self, const copter_t *copter)
 {
-    for (uint32_t unit = 0u; unit < copter->calibration.units; unit++) {
+    for (uint32_t unit = 0u; unit < self->units; unit++) {
         const keel_virtual_imu_sample_t *const sample = &copter->imu.unit[unit];
 
         if (sample->present) {
-            keel_calibration_rest_step(&copter->calibration.gyroscope[unit],
+            keel_calibration_rest_step(&self->gyroscope[unit],
                                        &sample->value[KEEL_VIRTUAL_IMU_ACCELEROMETER]);
         }
     }
@@ -122,12 +120,11 @@ static void step_rest(copter_calibration_t *self, const copter_magnetometer_t *m
 
 /* All rest together or begin again together: a gyroscope takes an even turn for rest, the field
  * does not. */
-static void seek_rest(copter_t *copter)
+static void seek_rest(copter_calibration_t *self, const copter_t *copter)
 {
-    copter_calibration_t *const self = &copter->calibration;
     bool moves = false;
 
-    step_gyroscopes(copter);
+    step_gyroscopes(self, copter);
     step_rest(self, &copter->magnetometer);
     for (uint32_t unit = 0u; unit < self->units; unit++) {
         moves = moves || copter_has_moved(&self->gyroscope[unit]);
@@ -141,20 +138,19 @@ static void seek_rest(copter_t *copter)
     }
 }
 
-void copter_calibration_imu(copter_t *copter)
+void copter_calibration_imu(copter_calibration_t *self, const copter_t *copter)
 {
-    copter_calibration_t *const self = &copter->calibration;
     const bool before = are_taken(self);
 
-    if (!copter->state.mode.motors && !are_calibrated(copter)) {
-        seek_rest(copter);
+    if (!copter->state.mode.motors && !are_calibrated(self, copter)) {
+        seek_rest(self, copter);
     }
     if (!before && are_taken(self)) {
         self->done++;
     }
-    copter_accel_calibration_step(copter);
+    copter_accel_calibration_step(&self->accelerometers, copter);
     set_check(self, KEEL_MODE_CHECK_CALIBRATION,
-              are_calibrated(copter) &&
+              are_calibrated(self, copter) &&
                   (self->accelerometers.levelling == (uint8_t)COPTER_LEVELLING_NONE) &&
                   (copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING));
 }
@@ -216,9 +212,8 @@ static void heed_place(copter_calibration_t *self, const copter_estimate_t *esti
     }
 }
 
-void copter_calibration_magnetometer(copter_t *copter)
+void copter_calibration_magnetometer(copter_calibration_t *self, const copter_t *copter)
 {
-    copter_calibration_t *const self = &copter->calibration;
     const keel_attitude_vector_t raw = copter->magnetometer.raw;
     const float sample[KEEL_CALIBRATION_AXES] = {raw.x, raw.y, raw.z};
 

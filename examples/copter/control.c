@@ -180,9 +180,8 @@ static void sink(copter_control_t *self, const copter_estimate_t *estimate)
                                   1.0f);
 }
 
-void copter_position_control(copter_t *copter)
+void copter_position_control(copter_control_t *self, const copter_t *copter)
 {
-    copter_control_t *const self = &copter->control;
     const keel_cascade_estimate_t *const here = &copter->estimate.here;
 
     follow_reset(self, &copter->estimate);
@@ -205,14 +204,14 @@ void copter_position_control(copter_t *copter)
     }
 }
 
-void copter_angle_control(copter_t *copter)
+void copter_angle_control(copter_control_t *self, copter_pilot_t *pilot, const copter_t *copter)
 {
-    keel_cascade_t *const cascade = &copter->control.cascade;
-    const keel_reference_setpoints_t *const pilot = &copter->pilot.reference.setpoints;
+    keel_cascade_t *const cascade = &self->cascade;
+    const keel_reference_setpoints_t *const asked = &pilot->reference.setpoints;
     keel_cascade_tilt_t sticks;
 
-    copter_pilot_smooth(&copter->pilot);
-    sticks = (keel_cascade_tilt_t){.roll = pilot->roll, .pitch = pilot->pitch};
+    copter_pilot_smooth(pilot);
+    sticks = (keel_cascade_tilt_t){.roll = asked->roll, .pitch = asked->pitch};
     keel_cascade_angle_step(cascade, sticks_tilt(copter) ? sticks : cascade->tilt, copter->imu.down,
                             copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING);
 }
@@ -268,10 +267,8 @@ static keel_cascade_rates_t rates_of(const copter_t *copter)
     return asked;
 }
 
-void copter_angle_rate_control(copter_t *copter)
+void copter_angle_rate_control(copter_control_t *self, const copter_t *copter)
 {
-    copter_control_t *const self = &copter->control;
-
     keel_cascade_rate_step(&self->cascade, rates_of(copter), copter->imu.attitude.rate,
                            self->mixer.limited);
     keel_mixer_step(&self->mixer, &self->cascade.command,

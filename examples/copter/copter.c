@@ -5,31 +5,6 @@
 #error "COPTER_LOG_TASKS: all tasks"
 #endif
 
-/* The body of each task of table 2. */
-static void (*const bodies[URPILOT_TASK_COUNT])(copter_t *copter) = {
-    [URPILOT_SCHEDULER_ANALYSIS] = copter_scheduler_analysis,
-    [URPILOT_STACK] = copter_stack,
-    [URPILOT_ADC] = copter_adc,
-    [URPILOT_BACKGROUND_POWER_MODULE] = copter_background_power_module,
-    [URPILOT_FOREGROUND_POWER_MODULE] = copter_foreground_power_module,
-    [URPILOT_BACKGROUND_BAROMETER] = copter_background_barometer,
-    [URPILOT_FOREGROUND_BAROMETER] = copter_foreground_barometer,
-    [URPILOT_BACKGROUND_MAGNETOMETER] = copter_background_magnetometer,
-    [URPILOT_FOREGROUND_MAGNETOMETER] = copter_foreground_magnetometer,
-    [URPILOT_CALIBRATION_MAGNETOMETER] = copter_calibration_magnetometer,
-    [URPILOT_BACKGROUND_IMU] = copter_background_imu,
-    [URPILOT_FOREGROUND_IMU] = copter_foreground_imu,
-    [URPILOT_CALIBRATION_IMU] = copter_calibration_imu,
-    [URPILOT_GPS] = copter_gps,
-    [URPILOT_BACKGROUND_RADIO] = copter_background_radio,
-    [URPILOT_FOREGROUND_RADIO] = copter_foreground_radio,
-    [URPILOT_NAVIGATION] = copter_navigation,
-    [URPILOT_ANGLE_RATE_CONTROL] = copter_angle_rate_control,
-    [URPILOT_ANGLE_CONTROL] = copter_angle_control,
-    [URPILOT_POSITION_CONTROL] = copter_position_control,
-    [URPILOT_STATE_MACHINE] = copter_state_machine,
-};
-
 /* The scheduler reads these as long as it runs. */
 static keel_task_config_t declaration[COPTER_TASKS];
 
@@ -127,7 +102,7 @@ static keel_status_t add_tasks(copter_t *copter)
     keel_status_t status = KEEL_OK;
 
     for (uint32_t row = 0u; (row < URPILOT_TASK_COUNT) && (status == KEEL_OK); row++) {
-        status = add(copter, bodies[row], declare(copter, row));
+        status = add(copter, copter_bodies[row], declare(copter, row));
     }
     return status;
 }

@@ -4,7 +4,8 @@
  * @brief A flight controller for a quadcopter: the 21 tasks of table 2 on Keel's units.
  *
  * Which task hands what to whom. Each structure below is written by the tasks named beside it
- * alone; what flows from left to right flows through it.
+ * alone: a task's body takes a pointer to what it writes, and the copter as const. Data flows from
+ * left to right through them.
  *
  *     background IMU -> foreground IMU --(imu)------> navigation --(estimate)--+
  *     background, foreground magnetometer (magnetometer)^  ^                   |
@@ -475,22 +476,26 @@ void copter_retune(copter_t *copter);
  */
 const keel_task_config_t *copter_declaration(uint32_t row);
 
-/** @name The bodies of the tasks, by the files that have them. */
+/** The body of each task of table 2, which hands it what it writes (tasks.c). */
+extern void (*const copter_bodies[URPILOT_TASK_COUNT])(copter_t *copter);
+
+/** @name The bodies of the tasks, by the files that have them.
+ * A body may write where its first parameters point to; the copter is for reading. */
 /** @{ */
 keel_status_t copter_imu_init(copter_imu_t *imu, uint32_t units);
-void copter_background_imu(copter_t *copter);
-void copter_foreground_imu(copter_t *copter);
+void copter_background_imu(copter_imu_t *self, const copter_t *copter);
+void copter_foreground_imu(copter_imu_t *self, const copter_t *copter);
 
 keel_status_t copter_magnetometer_init(copter_magnetometer_t *magnetometer);
-void copter_background_magnetometer(copter_t *copter);
-void copter_foreground_magnetometer(copter_t *copter);
+void copter_background_magnetometer(copter_magnetometer_t *self, const copter_t *copter);
+void copter_foreground_magnetometer(copter_magnetometer_t *self, const copter_t *copter);
 
 keel_status_t copter_barometer_init(copter_barometer_t *barometer);
-void copter_background_barometer(copter_t *copter);
-void copter_foreground_barometer(copter_t *copter);
+void copter_background_barometer(copter_barometer_t *self, const copter_t *copter);
+void copter_foreground_barometer(copter_barometer_t *self);
 
 keel_status_t copter_gps_init(copter_gps_t *gps);
-void copter_gps(copter_t *copter);
+void copter_gps(copter_gps_t *self, const copter_t *copter);
 
 /** Remembers a byte of the satellite receiver. */
 void copter_date_take(copter_date_t *date, uint8_t byte);
@@ -505,36 +510,39 @@ keel_status_t copter_pilot_init(copter_pilot_t *pilot);
 keel_status_t copter_pilot_tune(copter_pilot_t *pilot);
 /** A step of the sticks' low-passes and of what they ask for; at COPTER_CONTROL_HZ. */
 void copter_pilot_smooth(copter_pilot_t *pilot);
-void copter_background_radio(copter_t *copter);
-void copter_foreground_radio(copter_t *copter);
+void copter_background_radio(copter_pilot_t *self, const copter_t *copter);
+void copter_foreground_radio(copter_pilot_t *self);
 
 keel_status_t copter_power_init(copter_power_t *power);
-void copter_background_power_module(copter_t *copter);
-void copter_foreground_power_module(copter_t *copter);
+void copter_background_power_module(copter_power_t *self, const copter_t *copter);
+void copter_foreground_power_module(copter_power_t *self, const copter_t *copter);
 
 keel_status_t copter_estimate_init(copter_estimate_t *estimate);
-void copter_navigation(copter_t *copter);
+void copter_navigation(copter_estimate_t *self, const copter_t *copter);
 
 /** Knows neither a height nor another thrust that hovers than what is configured. */
 keel_status_t copter_vertical_init(copter_vertical_t *vertical);
 /** A step of navigation's, behind that of the barometer's estimator. */
-void copter_vertical_step(copter_t *copter, const copter_vertical_force_t *force, bool has_fix);
+void copter_vertical_step(copter_estimate_t *estimate, const copter_t *copter,
+                          const copter_vertical_force_t *force, bool has_fix);
 /** Writes height and climb rate into estimate->here, and a reset where the source changes. */
 void copter_vertical_tell(copter_estimate_t *estimate);
 /** Whether it stands on the ground or lies there, and what hovers; behind copter_vertical_tell. */
-void copter_vertical_conclude(copter_t *copter);
+void copter_vertical_conclude(copter_estimate_t *estimate, const copter_t *copter);
 
 keel_status_t copter_state_machine_init(copter_state_t *state);
-void copter_state_machine(copter_t *copter);
+void copter_state_machine(copter_state_t *self, copter_action_request_t *request,
+                          const copter_t *copter);
 
 keel_status_t copter_control_init(copter_control_t *control);
-void copter_position_control(copter_t *copter);
-void copter_angle_control(copter_t *copter);
-void copter_angle_rate_control(copter_t *copter);
+void copter_position_control(copter_control_t *self, const copter_t *copter);
+void copter_angle_control(copter_control_t *self, copter_pilot_t *pilot, const copter_t *copter);
+void copter_angle_rate_control(copter_control_t *self, const copter_t *copter);
 
-void copter_scheduler_analysis(copter_t *copter);
-void copter_stack(copter_t *copter);
-void copter_adc(copter_t *copter);
+void copter_scheduler_analysis(copter_health_t *self, const copter_t *copter);
+void copter_stack(copter_health_t *self, copter_parameter_store_t *parameters,
+                  const copter_t *copter);
+void copter_adc(copter_health_t *self, const copter_t *copter);
 
 keel_status_t copter_calibration_init(copter_calibration_t *calibration, uint32_t units);
 /** Whether something has moved since its calibration at rest began. */
@@ -550,9 +558,9 @@ void copter_accel_calibration_set(copter_accel_calibration_t *self);
 /** Begins to calibrate them, or ends that. */
 void copter_accel_calibration_ask(copter_accel_calibration_t *self, uint8_t levelling);
 /** A run of calibration IMU, behind what it does for gyroscopes. */
-void copter_accel_calibration_step(copter_t *copter);
-void copter_calibration_imu(copter_t *copter);
-void copter_calibration_magnetometer(copter_t *copter);
+void copter_accel_calibration_step(copter_accel_calibration_t *self, const copter_t *copter);
+void copter_calibration_imu(copter_calibration_t *self, const copter_t *copter);
+void copter_calibration_magnetometer(copter_calibration_t *self, const copter_t *copter);
 /** @} */
 
 #endif

@@ -59,9 +59,8 @@ static void listen(copter_gps_t *self, uint64_t now_us)
     self->is_silent = (now_us - self->byte_us) > COPTER_GPS_SILENT_US;
 }
 
-void copter_gps(copter_t *copter)
+void copter_gps(copter_gps_t *self, const copter_t *copter)
 {
-    copter_gps_t *const self = &copter->gps;
     const copter_port_t *const port = copter->port;
     const uint64_t now_us = copter->scheduler.clock.now_us;
     copter_byte_t byte;

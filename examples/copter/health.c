@@ -5,10 +5,8 @@
 #include <stddef.h>
 
 /* The counts of all tasks since the start; the kernel's own counts stay at their ends. */
-static void count_faults(copter_t *copter)
+static void count_faults(copter_health_t *self, const copter_t *copter)
 {
-    copter_health_t *const self = &copter->health;
-
     self->overruns = 0u;
     self->skipped = 0u;
     for (uint32_t row = 0u; row < copter->tasks; row++) {
@@ -22,25 +20,25 @@ static void count_faults(copter_t *copter)
     }
 }
 
-void copter_scheduler_analysis(copter_t *copter)
+void copter_scheduler_analysis(copter_health_t *self, const copter_t *copter)
 {
-    copter_health_t *const self = &copter->health;
     const uint64_t now_us = copter->scheduler.clock.now_us;
 
     self->load_ppm = keel_load_ppm(&self->window, now_us, copter->scheduler.busy_us);
     keel_load_begin(&self->window, now_us, copter->scheduler.busy_us);
-    count_faults(copter);
+    count_faults(self, copter);
     self->checks = (self->load_ppm <= copter_settings.load_limit_ppm) ? KEEL_MODE_CHECK_CPU_LOAD
                                                                       : 0u;
 }
 
-void copter_stack(copter_t *copter)
+void copter_stack(copter_health_t *self, copter_parameter_store_t *parameters,
+                  const copter_t *copter)
 {
-    copter->health.stack_free = copter->port->stack_free(copter->port->context);
-    copter_parameter_store_step(&copter->parameters);
+    self->stack_free = copter->port->stack_free(copter->port->context);
+    copter_parameter_store_step(parameters);
 }
 
-void copter_adc(copter_t *copter)
+void copter_adc(copter_health_t *self, const copter_t *copter)
 {
     const copter_port_t *const port = copter->port;
     copter_chip_t chip = {0};
@@ -48,5 +46,5 @@ void copter_adc(copter_t *copter)
     if (port->read_chip != NULL) {
         port->read_chip(port->context, &chip);
     }
-    copter->health.chip = chip; /* Nothing of the run before. */
+    self->chip = chip; /* Nothing of the run before. */
 }

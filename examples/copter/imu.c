@@ -46,10 +46,8 @@ keel_status_t copter_imu_init(copter_imu_t *imu, uint32_t units)
     return status;
 }
 
-void copter_background_imu(copter_t *copter)
+void copter_background_imu(copter_imu_t *self, const copter_t *copter)
 {
-    copter_imu_t *const self = &copter->imu;
-
     for (uint32_t unit = 0u; unit < self->units; unit++) {
         copter_imu_sample_t sample;
 
@@ -229,9 +227,8 @@ static void heed_field(copter_imu_t *self, const copter_estimate_t *estimate)
     }
 }
 
-void copter_foreground_imu(copter_t *copter)
+void copter_foreground_imu(copter_imu_t *self, const copter_t *copter)
 {
-    copter_imu_t *const self = &copter->imu;
     const copter_gps_t *const gps = &copter->gps;
     keel_virtual_imu_sample_t unit[COPTER_IMUS];
     keel_attitude_sample_t sample = {.has_magnetometer = false};

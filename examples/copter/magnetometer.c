@@ -17,13 +17,13 @@ keel_status_t copter_magnetometer_init(copter_magnetometer_t *magnetometer)
     return status;
 }
 
-void copter_background_magnetometer(copter_t *copter)
+void copter_background_magnetometer(copter_magnetometer_t *self, const copter_t *copter)
 {
     copter_magnetometer_sample_t sample;
 
     if (copter->port->read_magnetometer(copter->port->context, &sample)) {
         for (uint32_t k = 0u; k < 3u; k++) {
-            (void)keel_oversample_add(&copter->magnetometer.axis[k], sample.value[k]);
+            (void)keel_oversample_add(&self->axis[k], sample.value[k]);
         }
     }
 }
@@ -44,9 +44,8 @@ static float own_field(const copter_t *copter, uint32_t axis)
     return copter_settings.field_per_ampere[axis] * copter->power.battery.current;
 }
 
-void copter_foreground_magnetometer(copter_t *copter)
+void copter_foreground_magnetometer(copter_magnetometer_t *self, const copter_t *copter)
 {
-    copter_magnetometer_t *const self = &copter->magnetometer;
     float field[3] = {0.0f, 0.0f, 0.0f};
     bool whole = true;
 

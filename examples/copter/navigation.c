@@ -63,9 +63,9 @@ static bool is_elsewhere(const keel_position_t *position, const copter_fix_t *fi
 
 /* The first good fix is where positions are measured from. On the ground a later one replaces it
  * that is far from there: receivers are wrong in their first seconds, and aircraft are carried. */
-static void find_origin(copter_t *copter, const copter_fix_t *fix)
+static void find_origin(copter_estimate_t *self, const copter_t *copter)
 {
-    copter_estimate_t *const self = &copter->estimate;
+    const copter_fix_t *const fix = &copter->gps.fix;
 
     if (fix->is_valid && (fix->accuracy <= copter_settings.position.accuracy) &&
         (!self->position.has_origin ||
@@ -97,10 +97,9 @@ static void tell_reset(copter_estimate_t *self, const keel_cascade_vector_t *bef
 
 /* A step of both estimators, a block of the inertial unit's after the other. Other samples
  * are for the last of them. */
-static void step_estimators(copter_t *copter, const frame_t *frame, const copter_force_t *force,
-                            bool last)
+static void step_estimators(copter_estimate_t *self, const copter_t *copter, const frame_t *frame,
+                            const copter_force_t *force, bool last)
 {
-    copter_estimate_t *const self = &copter->estimate;
     const bool has_force = force->is_known && (copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING);
     const copter_vertical_force_t lift = {.acceleration = -dot(force->mean, frame->down) -
                                                           KEEL_CASCADE_GRAVITY,
@@ -122,17 +121,16 @@ static void step_estimators(copter_t *copter, const frame_t *frame, const copter
         self->fixes = copter->gps.fixes;
     }
     if (horizontal.has_fix) {
-        find_origin(copter, &copter->gps.fix);
+        find_origin(self, copter);
     }
     keel_altitude_step(&self->altitude, &vertical);
-    copter_vertical_step(copter, &lift, horizontal.has_fix);
+    copter_vertical_step(self, copter, &lift, horizontal.has_fix);
     keel_position_step(&self->position, &horizontal);
 }
 
 /* As many steps as blocks have passed: a run that comes late makes up for those before it. */
-static void catch_up(copter_t *copter, const frame_t *frame)
+static void catch_up(copter_estimate_t *self, const copter_t *copter, const frame_t *frame)
 {
-    copter_estimate_t *const self = &copter->estimate;
     const copter_imu_t *const imu = &copter->imu;
     const keel_cascade_vector_t before = {
         self->position.north.position, self->position.east.position, self->altitude.axis.position};
@@ -144,31 +142,28 @@ static void catch_up(copter_t *copter, const frame_t *frame)
         const copter_force_t *const force = &imu->force[self->blocks % COPTER_BLOCKS];
 
         self->blocks++;
-        step_estimators(copter, frame, force, self->blocks == imu->blocks);
+        step_estimators(self, copter, frame, force, self->blocks == imu->blocks);
     }
     tell_reset(self, &before);
 }
 
 /* Home is where the aircraft last took off. */
-static void find_home(copter_t *copter)
+static void find_home(copter_estimate_t *self, const copter_state_t *state)
 {
-    copter_estimate_t *const self = &copter->estimate;
-
-    if (copter->state.homes != self->homes) {
-        self->homes = copter->state.homes;
+    if (state->homes != self->homes) {
+        self->homes = state->homes;
         self->home_north = self->position.north.position;
         self->home_east = self->position.east.position;
         keel_altitude_zero(&self->altitude);
     }
 }
 
-void copter_navigation(copter_t *copter)
+void copter_navigation(copter_estimate_t *self, const copter_t *copter)
 {
-    copter_estimate_t *const self = &copter->estimate;
     const frame_t frame = frame_of(&copter->imu.attitude);
 
-    catch_up(copter, &frame);
-    find_home(copter);
+    catch_up(self, copter, &frame);
+    find_home(self, &copter->state);
     self->here = (keel_cascade_estimate_t){
         .position = {self->position.north.position - self->home_north,
                      self->position.east.position - self->home_east, self->here.position.up},
@@ -177,5 +172,5 @@ void copter_navigation(copter_t *copter)
         .forward_east = frame.east.x,
         .has_place = self->position.quality != KEEL_AXIS_NONE};
     copter_vertical_tell(self);
-    copter_vertical_conclude(copter);
+    copter_vertical_conclude(self, copter);
 }

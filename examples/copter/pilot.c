@@ -56,9 +56,8 @@ static bool has_time(const copter_port_t *port, uint32_t began_us)
     return (port->read_clock(port->clock) - began_us) < COPTER_RADIO_READS_US;
 }
 
-void copter_background_radio(copter_t *copter)
+void copter_background_radio(copter_pilot_t *self, const copter_t *copter)
 {
-    copter_pilot_t *const self = &copter->pilot;
     const copter_port_t *const port = copter->port;
     const uint32_t began_us = port->read_clock(port->clock);
     copter_byte_t byte;
@@ -174,10 +173,8 @@ static void obey(copter_pilot_t *self)
     self->frames++;
 }
 
-void copter_foreground_radio(copter_t *copter)
+void copter_foreground_radio(copter_pilot_t *self)
 {
-    copter_pilot_t *const self = &copter->pilot;
-
     if ((self->rc.frames != self->read) && !self->rc.is_lost) {
         obey(self);
     }

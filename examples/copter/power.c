@@ -57,10 +57,10 @@ keel_status_t copter_power_init(copter_power_t *power)
     return keel_battery_init(&power->battery, &copter_settings.battery);
 }
 
-void copter_background_power_module(copter_t *copter)
+void copter_background_power_module(copter_power_t *self, const copter_t *copter)
 {
     for (uint32_t i = 0u; i < COPTER_POWER_MODULES; i++) {
-        keel_battery_reading_t *const module = &copter->power.sample.module[i];
+        keel_battery_reading_t *const module = &self->sample.module[i];
         copter_power_reading_t reading;
 
         if (copter->port->read_power(copter->port->context, i, &reading)) {
@@ -72,10 +72,8 @@ void copter_background_power_module(copter_t *copter)
     }
 }
 
-void copter_foreground_power_module(copter_t *copter)
+void copter_foreground_power_module(copter_power_t *self, const copter_t *copter)
 {
-    copter_power_t *const self = &copter->power;
-
     self->sample.running = copter->state.mode.motors;
     keel_battery_step(&self->battery, &self->sample);
     look_at_rest(self);

@@ -116,11 +116,9 @@ static bool can_be_landed(const keel_mode_t *machine)
 }
 
 /* Nobody would see the next fault, so it lands. The pilot may know better: he moves his switch. */
-static void land_unconfirmed(copter_t *copter)
+static void land_unconfirmed(copter_state_t *self, copter_action_request_t *request,
+                             const copter_t *copter)
 {
-    copter_state_t *const self = &copter->state;
-    copter_action_request_t *const request = &copter->request;
-
     self->unconfirmed = (is_unconfirmed(&copter->imu.virtual_imu) ||
                          is_unconfirmed(&copter->imu.slow))
                             ? (self->unconfirmed + 1u)
@@ -173,10 +171,8 @@ static uint32_t checks_of(const copter_t *copter)
 }
 
 /* Counts when the aircraft goes out of the fence. */
-static void watch_fence(copter_t *copter, uint32_t facts)
+static void watch_fence(copter_state_t *self, const copter_t *copter, uint32_t facts)
 {
-    copter_state_t *const self = &copter->state;
-
     if (((facts & KEEL_MODE_FENCE_BREACHED) != 0u) &&
         ((self->mode.seen & KEEL_MODE_FENCE_BREACHED) == 0u)) {
         self->breach.count++;
@@ -197,9 +193,9 @@ static void count_refusal(copter_state_t *self, bool could_try)
     }
 }
 
-void copter_state_machine(copter_t *copter)
+void copter_state_machine(copter_state_t *self, copter_action_request_t *request,
+                          const copter_t *copter)
 {
-    copter_state_t *const self = &copter->state;
     const uint64_t now_us = copter->scheduler.clock.now_us;
     const bool frame = copter->pilot.frames != self->frames;
     const bool was_disarmed = self->mode.state == KEEL_MODE_DISARMED;
@@ -211,12 +207,12 @@ void copter_state_machine(copter_t *copter)
 
     self->frames = copter->pilot.frames;
     self->stepped_us = now_us;
-    watch_fence(copter, input.facts);
-    land_unconfirmed(copter);
-    copter_action_request_apply(&copter->request, frame, &input);
+    watch_fence(self, copter, input.facts);
+    land_unconfirmed(self, request, copter);
+    copter_action_request_apply(request, frame, &input);
     keel_mode_step(&self->mode, &input);
     count_refusal(self, could_try);
-    copter_action_request_follow(&copter->request, &self->mode, input.elapsed_us);
+    copter_action_request_follow(request, &self->mode, input.elapsed_us);
     if (was_disarmed && self->mode.motors) {
         self->homes++;
     }

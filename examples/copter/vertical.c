@@ -80,10 +80,11 @@ static uint8_t source_of(const copter_vertical_t *self, const keel_altitude_t *a
                                                                        : COPTER_HEIGHT_NONE;
 }
 
-void copter_vertical_step(copter_t *copter, const copter_vertical_force_t *force, bool has_fix)
+void copter_vertical_step(copter_estimate_t *estimate, const copter_t *copter,
+                          const copter_vertical_force_t *force, bool has_fix)
 {
-    copter_vertical_t *const self = &copter->estimate.vertical;
-    const keel_altitude_t *const altitude = &copter->estimate.altitude;
+    copter_vertical_t *const self = &estimate->vertical;
+    const keel_altitude_t *const altitude = &estimate->altitude;
     const float known = force->is_known ? force->acceleration : 0.0f;
 
     step_gps(self, &copter->gps.fix, has_fix, force);
@@ -174,9 +175,8 @@ static bool is_landed(const copter_t *copter)
 
 /* A descent is asked for, and not a quarter of it happens: it may stand on the ground. A place that
  * is held there would only tilt it. */
-static void heed_touch(copter_t *copter)
+static void heed_touch(copter_estimate_t *estimate, const copter_t *copter)
 {
-    copter_estimate_t *const estimate = &copter->estimate;
     copter_vertical_t *const self = &estimate->vertical;
     const float asked = copter->control.asked.up;
 
@@ -201,10 +201,8 @@ static bool lies(const copter_t *copter)
 }
 
 /* Motors stand from then on, until it is disarmed. */
-static void heed_crash(copter_t *copter)
+static void heed_crash(copter_vertical_t *self, const copter_t *copter)
 {
-    copter_vertical_t *const self = &copter->estimate.vertical;
-
     if (!copter->state.mode.motors) {
         self->lying = 0u;
         self->is_crashed = false;
@@ -217,9 +215,8 @@ static void heed_crash(copter_t *copter)
 }
 
 /* Thrust over lift, both along the body, is what hovers over g, however it moves. */
-static void learn_hover(copter_t *copter)
+static void learn_hover(copter_vertical_t *self, const copter_t *copter)
 {
-    copter_vertical_t *const self = &copter->estimate.vertical;
     const float lift = -last_force(&copter->imu).z;
     const float thrust = copter->control.cascade.command.thrust;
     const uint32_t gave_way = copter->control.mixer.limited &
@@ -234,13 +231,12 @@ static void learn_hover(copter_t *copter)
     }
 }
 
-void copter_vertical_conclude(copter_t *copter)
+void copter_vertical_conclude(copter_estimate_t *estimate, const copter_t *copter)
 {
-    copter_estimate_t *const estimate = &copter->estimate;
     copter_vertical_t *const self = &estimate->vertical;
 
-    heed_crash(copter);
-    heed_touch(copter);
+    heed_crash(self, copter);
+    heed_touch(estimate, copter);
     estimate->is_landed = is_landed(copter);
     if (estimate->is_landed) {
         self->is_up = false;
@@ -249,5 +245,5 @@ void copter_vertical_conclude(copter_t *copter)
     } else {
         /* It stays what it was. */
     }
-    learn_hover(copter);
+    learn_hover(self, copter);
 }

@@ -129,7 +129,7 @@ static void measure(const stream_t *what)
 
         line.now_us = run * PERIOD_US;
         took_us = keel_board_clock_us(NULL);
-        copter_background_radio(&copter);
+        copter_background_radio(&copter.pilot, &copter);
         took_us = keel_board_clock_us(NULL) - took_us;
         longest_us = (took_us > longest_us) ? took_us : longest_us;
         if ((found == 0u) && (copter.pilot.rc.protocol != COPTER_PROTOCOL_ANY)) {

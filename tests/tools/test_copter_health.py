@@ -55,16 +55,16 @@ void background(int there, double pressure, int temperature)
 {
     breathes = there != 0;
     breath = (copter_barometer_sample_t){(float)pressure, (int16_t)temperature};
-    copter_background_barometer(&copter);
+    copter_background_barometer(&copter.barometer, &copter);
 }
-void foreground(void) { copter_foreground_barometer(&copter); }
+void foreground(void) { copter_foreground_barometer(&copter.barometer); }
 int air_temperature(void) { return copter.barometer.temperature; }
 double air_pressure(void) { return copter.barometer.pressure_pa; }
 int blocks_by_pressure(void)
 {
     copter_settings = copter_defaults;
     (void)copter_state_machine_init(&copter.state);
-    copter_state_machine(&copter);
+    copter_state_machine(&copter.state, &copter.request, &copter);
     return (copter.state.mode.blocking.checks & COPTER_CHECK_GROUND_PRESSURE) != 0u;
 }
 static bool is_ready_of_test(void *context)
@@ -79,7 +79,7 @@ int blocks_by_switch(int uses, int has, int is_ready)
     port.is_ready = (has != 0) ? is_ready_of_test : NULL;
     ready = is_ready != 0;
     (void)copter_state_machine_init(&copter.state);
-    copter_state_machine(&copter);
+    copter_state_machine(&copter.state, &copter.request, &copter);
     return (copter.state.mode.blocking.checks & COPTER_CHECK_SAFETY_SWITCH) != 0u;
 }
 int uses_by_default(void) { return copter_defaults.safety_switch; }
@@ -94,7 +94,7 @@ int measure(int has_supply, int supply, int has_temperature, int temperature)
 {
     chip = (copter_chip_t){(uint16_t)supply, (int16_t)temperature, has_supply != 0,
                            has_temperature != 0};
-    copter_adc(&copter);
+    copter_adc(&copter.health, &copter);
     return asked;
 }
 int has_supply(void) { return copter.health.chip.has_supply; }

@@ -47,9 +47,9 @@ void measure(float x, float y, float z)
     measured[0] = x;
     measured[1] = y;
     measured[2] = z;
-    copter_background_magnetometer(&copter);
-    copter_background_magnetometer(&copter);
-    copter_foreground_magnetometer(&copter);
+    copter_background_magnetometer(&copter.magnetometer, &copter);
+    copter_background_magnetometer(&copter.magnetometer, &copter);
+    copter_foreground_magnetometer(&copter.magnetometer, &copter);
 }
 float field(int axis)
 {

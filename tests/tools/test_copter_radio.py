@@ -60,8 +60,8 @@ void hand(const uint8_t *bytes, const uint32_t *us, uint32_t count)
     data = bytes;
     times = us;
     left = count;
-    while (left > 0u) { copter_background_radio(&copter); }
-    copter_foreground_radio(&copter);
+    while (left > 0u) { copter_background_radio(&copter.pilot, &copter); }
+    copter_foreground_radio(&copter.pilot);
 }
 int run_of(const uint8_t *bytes, const uint32_t *us, uint32_t count, uint32_t cost_us)
 {
@@ -69,7 +69,7 @@ int run_of(const uint8_t *bytes, const uint32_t *us, uint32_t count, uint32_t co
     times = us;
     left = count;
     byte_us = cost_us;
-    copter_background_radio(&copter);
+    copter_background_radio(&copter.pilot, &copter);
     return (int)(count - left);
 }
 int heard(void) { return (int)copter.pilot.rc.frames; }

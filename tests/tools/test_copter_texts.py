@@ -66,8 +66,8 @@ void step(int links, int on, int throttle_low, int kill, int bytes)
                          (kill ? KEEL_MODE_KILL_SWITCH_ON : 0u);
     copter.pilot.frames += links ? 1u : 0u;
     bytes_left = (uint32_t)bytes;
-    copter_state_machine(&copter);
-    copter_gps(&copter);
+    copter_state_machine(&copter.state, &copter.request, &copter);
+    copter_gps(&copter.gps, &copter);
     for (int i = 0; (i < 5) && !held; i++) { copter_telemetry(&copter); }
 }
 void spoil(int battery, int pressure, int at_safe)

@@ -61,7 +61,7 @@ int run_in(int state, int frame)
     copter.state.mode.motors = true;
     copter.request.mode.is_moved = false;
     copter.pilot.frames += (frame != 0) ? 1u : 0u;
-    copter_state_machine(&copter);
+    copter_state_machine(&copter.state, &copter.request, &copter);
     return copter.state.lands_unconfirmed;
 }
 int asks_for(void) { return copter.request.asked; }
