@@ -14,7 +14,7 @@
 #define TRIM_MOST   0.2f  /* TRIM_ROLL and TRIM_PITCH take as much. */
 #define OFFSET_MOST 2.0f  /* ACC1_OFF_X and so on take as much. */
 
-static void begin(copter_accel_calibration_t *self)
+static void begin_rests(copter_accel_calibration_t *self)
 {
     for (uint32_t unit = 0u; unit < self->units; unit++) {
         keel_calibration_rest_begin(&self->rest[unit]);
@@ -90,7 +90,7 @@ void copter_accel_calibration_set(copter_accel_calibration_t *self)
     }
 }
 
-static void finish(copter_accel_calibration_t *self, copter_levelled_t end)
+static void finish_levelling(copter_accel_calibration_t *self, copter_levelled_t end)
 {
     self->levelling = (uint8_t)COPTER_LEVELLING_NONE;
     self->end = (uint8_t)end;
@@ -99,13 +99,13 @@ static void finish(copter_accel_calibration_t *self, copter_levelled_t end)
 void copter_accel_calibration_ask(copter_accel_calibration_t *self, uint8_t levelling)
 {
     if (levelling == (uint8_t)COPTER_LEVELLING_NONE) {
-        finish(self, COPTER_LEVELLED_CANCELLED);
+        finish_levelling(self, COPTER_LEVELLED_CANCELLED);
     } else {
         self->levelling = levelling;
         self->end = (uint8_t)COPTER_LEVELLED_NOT;
         self->seen = 0u;
         self->waited = 0u;
-        begin(self);
+        begin_rests(self);
     }
 }
 
@@ -131,7 +131,7 @@ static bool have_rested(copter_accel_calibration_t *self, uint32_t count)
         moves = moves || copter_has_moved(&self->rest[unit]);
     }
     if (moves) {
-        begin(self);
+        begin_rests(self);
     }
     return rest && !moves;
 }
@@ -175,7 +175,7 @@ static void finish_sides(copter_accel_calibration_t *self)
     for (uint32_t unit = 0u; (unit < self->units) && (status == KEEL_OK); unit++) {
         self->found[unit] = found[unit];
     }
-    finish(self, (status == KEEL_OK) ? COPTER_LEVELLED_DONE : COPTER_LEVELLED_BEYOND);
+    finish_levelling(self, (status == KEEL_OK) ? COPTER_LEVELLED_DONE : COPTER_LEVELLED_BEYOND);
 }
 
 static void take_side(copter_accel_calibration_t *self, uint8_t side)
@@ -205,7 +205,7 @@ static void step_sides(copter_accel_calibration_t *self)
             ((self->seen & (1u << side)) == 0u)) {
             take_side(self, side);
         }
-        begin(self);
+        begin_rests(self);
     }
     if (self->seen == ALL_SIDES) {
         finish_sides(self);
@@ -233,7 +233,7 @@ static void step_level(copter_accel_calibration_t *self)
     self->trim[0] = atan2f(-down.axis[1], -down.axis[2]);
     self->trim[1] = atan2f(down.axis[0],
                            sqrtf((down.axis[1] * down.axis[1]) + (down.axis[2] * down.axis[2])));
-    finish(self, ((fabsf(self->trim[0]) <= TRIM_MOST) && (fabsf(self->trim[1]) <= TRIM_MOST))
+    finish_levelling(self, ((fabsf(self->trim[0]) <= TRIM_MOST) && (fabsf(self->trim[1]) <= TRIM_MOST))
                      ? COPTER_LEVELLED_DONE
                      : COPTER_LEVELLED_BEYOND);
 }
@@ -246,9 +246,9 @@ void copter_accel_calibration_step(copter_accel_calibration_t *self, const copte
     self->waited++;
     step_rests(self, copter);
     if (copter->state.mode.motors) {
-        finish(self, COPTER_LEVELLED_CANCELLED);
+        finish_levelling(self, COPTER_LEVELLED_CANCELLED);
     } else if (self->waited > PATIENCE) {
-        finish(self, COPTER_LEVELLED_LATE);
+        finish_levelling(self, COPTER_LEVELLED_LATE);
     } else if (self->levelling == (uint8_t)COPTER_LEVELLING_SIDES) {
         step_sides(self);
     } else {

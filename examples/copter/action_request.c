@@ -56,7 +56,7 @@ void copter_action_request_apply(copter_action_request_t *request, bool frame,
 }
 
 /* A waiting request gets its answer; one that is refused or late is asked no more. */
-static void answer(copter_moved_t *moved, bool done, bool refused, uint32_t elapsed_us)
+static void answer_move(copter_moved_t *moved, bool done, bool refused, uint32_t elapsed_us)
 {
     if (moved->answer != COPTER_ANSWER_WAITS) {
         return;
@@ -80,9 +80,9 @@ void copter_action_request_follow(copter_action_request_t *request, const keel_m
     const bool is_asked = rests && (machine->asked == request->asked);
     const bool has_mode = !machine->motors || (machine->mode == request->asked);
 
-    answer(&request->arm, machine->motors == request->arms,
+    answer_move(&request->arm, machine->motors == request->arms,
            !linked || (request->arms && !machine->ready), elapsed_us);
-    answer(&request->mode, is_asked && has_mode, !linked, elapsed_us);
+    answer_move(&request->mode, is_asked && has_mode, !linked, elapsed_us);
     if (request->arm.answer != COPTER_ANSWER_WAITS) {
         /* No motor starts by a request that is over. */
         request->arm.is_moved = request->arm.is_moved && linked &&

@@ -62,7 +62,7 @@ static void tell_field(copter_telemetry_t *self, uint8_t end)
                 "magnetometer: ", words[end]);
 }
 
-static void say(copter_telemetry_t *self, const char *what)
+static void say_calibration(copter_telemetry_t *self, const char *what)
 {
     copter_text(self, (uint8_t)MAV_SEVERITY_INFO, "[cal] ", what);
 }
@@ -75,15 +75,15 @@ static void tell_sides(copter_telemetry_t *self, const copter_accel_calibration_
     if (from->side != self->side) {
         self->side = from->side;
         if ((from->side < KEEL_CALIBRATION_SIDES) && ((from->seen & (1u << from->side)) == 0u)) {
-            say(self, side_detected[from->shown]);
+            say_calibration(self, side_detected[from->shown]);
         }
     }
     if ((from->seen != self->sides) && (from->seen != 0u)) {
         for (uint32_t bits = from->seen; bits != 0u; bits >>= 1u) {
             count += bits & 1u;
         }
-        say(self, side_done[from->shown]);
-        say(self, progress[count]);
+        say_calibration(self, side_done[from->shown]);
+        say_calibration(self, progress[count]);
     }
     self->sides = from->seen;
 }
@@ -94,13 +94,13 @@ static void tell_end(copter_telemetry_t *self, uint8_t levelling, uint8_t end)
     const bool is_level = levelling == (uint8_t)COPTER_LEVELLING_LEVEL;
 
     if (end == (uint8_t)COPTER_LEVELLED_DONE) {
-        say(self, is_level ? "calibration done: level" : "calibration done: accel");
+        say_calibration(self, is_level ? "calibration done: level" : "calibration done: accel");
         self->keeps = is_level ? TRIM_FIRST : SIDES_FIRST;
         self->keeps_end = is_level ? KEPT : TRIM_FIRST;
     } else if (end == (uint8_t)COPTER_LEVELLED_CANCELLED) {
-        say(self, "calibration cancelled");
+        say_calibration(self, "calibration cancelled");
     } else {
-        say(self, is_level ? "calibration failed: level" : "calibration failed: accel");
+        say_calibration(self, is_level ? "calibration failed: level" : "calibration failed: accel");
         copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "not calibrated: ",
                     (end == (uint8_t)COPTER_LEVELLED_LATE) ? "it did not rest for two minutes"
                                                            : "what was found is beyond limits");
@@ -131,7 +131,7 @@ static uint32_t begin_levelling(copter_t *copter, copter_levelling_t levelling)
         return MAV_RESULT_TEMPORARILY_REJECTED;
     }
     copter_accel_calibration_ask(&copter->calibration.accelerometers, (uint8_t)levelling);
-    say(self, (levelling == COPTER_LEVELLING_LEVEL) ? "calibration started: 2 level"
+    say_calibration(self, (levelling == COPTER_LEVELLING_LEVEL) ? "calibration started: 2 level"
                                                     : "calibration started: 2 accel");
     self->levelling = (uint8_t)levelling;
     self->sides = 0u;
@@ -169,7 +169,7 @@ uint32_t copter_command_calibrate(copter_t *copter, const copter_command_t *comm
     return result;
 }
 
-static float found(const copter_calibration_t *from, uint32_t kept)
+static float value_found(const copter_calibration_t *from, uint32_t kept)
 {
     const uint32_t of_unit = (kept - SIDES_FIRST) % OF_UNIT;
     float value = 0.0f;
@@ -197,7 +197,7 @@ static void keep_next(copter_t *copter)
     const char *const name = kept_name[self->keeps];
     const uint16_t index = keel_parameters_find(table, name);
     const keel_parameter_value_t value = {.type = KEEL_PARAMETER_FLOAT,
-                                          .real = found(&copter->calibration, self->keeps)};
+                                          .real = value_found(&copter->calibration, self->keeps)};
 
     if (keel_parameters_set(table, index, value) == KEEL_OK) {
         copter_mavlink_parameter_is_set(copter, index);

@@ -26,7 +26,7 @@ static const command_t commands[COMMANDS] = {
 };
 
 /* As much of a text as there is room for, and the end of line. */
-static uint32_t append(char line[COPTER_CONSOLE_LINE], uint32_t at, const char *text)
+static uint32_t append_text(char line[COPTER_CONSOLE_LINE], uint32_t at, const char *text)
 {
     uint32_t end = at;
 
@@ -44,8 +44,8 @@ static uint32_t help_line(const copter_t *copter, uint32_t number, char line[COP
 
     (void)copter;
     if (number < COMMANDS) {
-        length = append(line, append(line, 0u, commands[number].name), ": ");
-        length = append(line, append(line, length, commands[number].meaning), "\n");
+        length = append_text(line, append_text(line, 0u, commands[number].name), ": ");
+        length = append_text(line, append_text(line, length, commands[number].meaning), "\n");
     }
     return length;
 }
@@ -61,12 +61,12 @@ static uint32_t refusal_line(const char *typed, uint32_t number, char line[COPTE
     uint32_t length = 0u;
 
     if ((number == 0u) && (typed[0] != '\0')) {
-        length = append(line, append(line, 0u, "no such command: "), typed);
-        length = append(line, length, "; there are: ");
+        length = append_text(line, append_text(line, 0u, "no such command: "), typed);
+        length = append_text(line, length, "; there are: ");
         for (uint32_t i = 0u; i < COMMANDS; i++) {
-            length = append(line, append(line, length, (i == 0u) ? "" : ", "), commands[i].name);
+            length = append_text(line, append_text(line, length, (i == 0u) ? "" : ", "), commands[i].name);
         }
-        length = append(line, length, "\n");
+        length = append_text(line, length, "\n");
     }
     return length;
 }

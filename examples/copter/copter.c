@@ -41,7 +41,7 @@ static keel_status_t first_of(const keel_status_t status[], uint32_t count)
     return first;
 }
 
-static keel_status_t make(copter_t *copter)
+static keel_status_t make_parts(copter_t *copter)
 {
     const keel_status_t status[] = {
         copter_imu_init(&copter->imu, copter->port->imus),
@@ -59,7 +59,7 @@ static keel_status_t make(copter_t *copter)
 }
 
 /* The next row, declared already; it is there once the scheduler has it. */
-static keel_status_t add(copter_t *copter, void (*body)(copter_t *copter), uint32_t wcet_us)
+static keel_status_t add_row(copter_t *copter, void (*body)(copter_t *copter), uint32_t wcet_us)
 {
     const uint32_t row = copter->tasks;
     const keel_status_t status = keel_scheduler_add(&copter->scheduler, &declaration[row]);
@@ -71,7 +71,7 @@ static keel_status_t add(copter_t *copter, void (*body)(copter_t *copter), uint3
 }
 
 /* Declares a row of table 2, and tells its worst-case execution time. */
-static uint32_t declare(copter_t *copter, uint32_t row)
+static uint32_t declare_row(copter_t *copter, uint32_t row)
 {
     keel_task_config_t *const task = &declaration[row];
     uint32_t wcet_us = urpilot_task[row].wcet_us;
@@ -102,7 +102,7 @@ static keel_status_t add_tasks(copter_t *copter)
     keel_status_t status = KEEL_OK;
 
     for (uint32_t row = 0u; (row < URPILOT_TASK_COUNT) && (status == KEEL_OK); row++) {
-        status = add(copter, copter_bodies[row], declare(copter, row));
+        status = add_row(copter, copter_bodies[row], declare_row(copter, row));
     }
     return status;
 }
@@ -121,7 +121,7 @@ keel_status_t copter_add(copter_t *copter, const copter_own_task_t *own)
                                             .budget_us = own->budget_us,
                                             .phase_us = own->phase_us,
                                             .priority = KEEL_PRIORITY_LOW};
-    return add(copter, own->body, own->wcet_us);
+    return add_row(copter, own->body, own->wcet_us);
 }
 
 /* Neither the cascade, nor the mixer, nor the sticks remember anything between flights, and
@@ -147,7 +147,7 @@ keel_status_t copter_start(copter_t *copter, const copter_port_t *port, bool pla
     *copter = (copter_t){.port = port, .plain_mean = plain_mean};
     status = copter_parameter_store_start(&copter->parameters, port->memory);
     if (status == KEEL_OK) {
-        status = make(copter);
+        status = make_parts(copter);
     }
     if (status == KEEL_OK) {
         status = keel_scheduler_init(&copter->scheduler, &config);

@@ -177,7 +177,7 @@ static uint8_t error_of_others(uint8_t opcode)
 }
 
 /* The error of a request, and the file that it is about. */
-static uint8_t judged(copter_ftp_t *ftp, copter_ftp_reply_t *reply, const uint8_t *payload)
+static uint8_t error_of(copter_ftp_t *ftp, copter_ftp_reply_t *reply, const uint8_t *payload)
 {
     uint8_t error = (uint8_t)MAV_FTP_ERR_NONE;
 
@@ -247,7 +247,7 @@ bool copter_ftp_take(copter_ftp_t *ftp, const message_file_transfer_protocol_t *
                                 .component = component};
 
     reply.sequence = (uint16_t)((number_at(payload, 2u) + 1u) & UINT16_MAX);
-    reply.error = judged(ftp, &reply, payload);
+    reply.error = error_of(ftp, &reply, payload);
     if (ends_burst(reply.opcode)) {
         end_burst(ftp, system, component);
     }
@@ -260,7 +260,7 @@ bool copter_ftp_take(copter_ftp_t *ftp, const message_file_transfer_protocol_t *
 }
 
 /* As many entries of the directory as there is room for, from one on; tells their bytes. */
-static uint32_t list(uint32_t from, uint8_t data[COPTER_FTP_DATA])
+static uint32_t list_entries(uint32_t from, uint8_t data[COPTER_FTP_DATA])
 {
     uint32_t size = 0u;
 
@@ -291,7 +291,7 @@ static uint32_t read_file(const copter_ftp_reply_t *reply, uint8_t data[COPTER_F
 }
 
 /* Writes the data of an answer; tells its bytes. */
-static uint32_t carried(const copter_ftp_reply_t *reply, uint8_t data[COPTER_FTP_DATA])
+static uint32_t write_data(const copter_ftp_reply_t *reply, uint8_t data[COPTER_FTP_DATA])
 {
     uint32_t size = 0u;
 
@@ -301,7 +301,7 @@ static uint32_t carried(const copter_ftp_reply_t *reply, uint8_t data[COPTER_FTP
     }
     switch (reply->opcode) {
     case MAV_FTP_OPCODE_LISTDIRECTORY:
-        size = list(reply->offset, data);
+        size = list_entries(reply->offset, data);
         break;
     case MAV_FTP_OPCODE_OPENFILERO:
         put_number(data, WORD, copter_file[reply->file].size);
@@ -349,7 +349,7 @@ bool copter_ftp_report(copter_ftp_t *ftp, message_file_transfer_protocol_t *mess
     remove_reply(ftp, 0u);
     *message = (message_file_transfer_protocol_t){.target_system = reply.system,
                                                   .target_component = reply.component};
-    size = carried(&reply, &payload[AT_DATA]);
+    size = write_data(&reply, &payload[AT_DATA]);
     put_number(payload, 2u, reply.sequence);
     payload[AT_SESSION] = reply.session;
     payload[AT_OPCODE] = (uint8_t)((reply.error == MAV_FTP_ERR_NONE) ? MAV_FTP_OPCODE_ACK

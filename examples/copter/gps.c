@@ -32,7 +32,7 @@ static copter_fix_t fix_of(const keel_ubx_t *receiver)
 }
 
 /* By the receiver's times: a run of this task may come late, a fix be lost on the way. */
-static void derive(copter_gps_t *self, const copter_fix_t *before)
+static void derive_acceleration(copter_gps_t *self, const copter_fix_t *before)
 {
     const uint32_t apart_ms = self->fix.tow_ms - before->tow_ms;
 
@@ -48,7 +48,7 @@ static void derive(copter_gps_t *self, const copter_fix_t *before)
 }
 
 /* Whether it has been silent for too long, whatever its bytes say. */
-static void listen(copter_gps_t *self, uint64_t now_us)
+static void watch_silence(copter_gps_t *self, uint64_t now_us)
 {
     const uint32_t bytes = self->receiver.count.bytes;
 
@@ -72,7 +72,7 @@ void copter_gps(copter_gps_t *self, const copter_t *copter)
             const copter_fix_t before = self->fix;
 
             self->fix = fix_of(&self->receiver);
-            derive(self, &before);
+            derive_acceleration(self, &before);
             copter_date_read(&self->date, now_us);
             self->fixed_us = now_us;
             self->fixes++;
@@ -81,5 +81,5 @@ void copter_gps(copter_gps_t *self, const copter_t *copter)
     if ((now_us - self->fixed_us) > APART_US) {
         self->is_accelerated = false;
     }
-    listen(self, now_us);
+    watch_silence(self, now_us);
 }

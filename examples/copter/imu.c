@@ -11,7 +11,7 @@
 #define DOUBT_VOTES    1000u /* What was so within 2 s is told as it is. */
 
 /* The settings of a vote, among so many units. */
-static keel_virtual_imu_config_t among(keel_virtual_imu_config_t config, uint32_t units)
+static keel_virtual_imu_config_t config_among(keel_virtual_imu_config_t config, uint32_t units)
 {
     config.accelerometer.sensors = (uint8_t)units;
     config.gyroscope.sensors = (uint8_t)units;
@@ -20,8 +20,8 @@ static keel_virtual_imu_config_t among(keel_virtual_imu_config_t config, uint32_
 
 keel_status_t copter_imu_init(copter_imu_t *imu, uint32_t units)
 {
-    const keel_virtual_imu_config_t fast = among(copter_settings.imu, units);
-    const keel_virtual_imu_config_t slow = among(copter_settings.slow, units);
+    const keel_virtual_imu_config_t fast = config_among(copter_settings.imu, units);
+    const keel_virtual_imu_config_t slow = config_among(copter_settings.slow, units);
     keel_status_t status = keel_virtual_imu_init(&imu->virtual_imu, &fast);
 
     imu->units = units;
@@ -65,7 +65,7 @@ void copter_background_imu(copter_imu_t *self, const copter_t *copter)
 
 /* A sample of a unit since the last vote; it is absent unless all its channels have, and rests if
  * all say what they said before. */
-static void take(copter_imu_t *self, uint32_t unit, uint64_t now_us)
+static void take_sample(copter_imu_t *self, uint32_t unit, uint64_t now_us)
 {
     keel_virtual_imu_sample_t *const sample = &self->unit[unit];
     bool rests = sample->present;
@@ -95,7 +95,7 @@ static float filtered(keel_filter_t *filter, float value, bool goes_on)
 /* A unit votes with its sample as calibrations correct it, filtered, as vibration differs from unit
  * to unit. Filters start anew behind a gap. They rest while the unit does: a unit that repeats
  * itself gave no sample, and the voter is to see it. */
-static void prepare(copter_imu_t *self, uint32_t unit, const copter_calibration_t *calibration,
+static void prepare_vote(copter_imu_t *self, uint32_t unit, const copter_calibration_t *calibration,
                     bool goes_on, keel_virtual_imu_sample_t *sample)
 {
     keel_filter_t *const filter = self->filter[unit];
@@ -133,7 +133,7 @@ static void vote_on_drift(copter_imu_t *self, keel_virtual_imu_sample_t unit[])
 }
 
 /* The worst state of three channels' votes, for as long as it is to be told. */
-static void doubt(copter_doubt_t *self, const keel_voter_t channel[])
+static void keep_doubt(copter_doubt_t *self, const keel_voter_t channel[])
 {
     uint8_t worst = KEEL_VOTER_MEAN;
 
@@ -238,13 +238,13 @@ void copter_foreground_imu(copter_imu_t *self, const copter_t *copter)
     for (uint32_t i = 0u; i < self->units; i++) {
         const bool goes_on = self->unit[i].present;
 
-        take(self, i, copter->scheduler.clock.now_us);
-        prepare(self, i, &copter->calibration, goes_on, &unit[i]);
+        take_sample(self, i, copter->scheduler.clock.now_us);
+        prepare_vote(self, i, &copter->calibration, goes_on, &unit[i]);
     }
     vote_on_drift(self, unit);
     keel_virtual_imu_step(&self->virtual_imu, unit, VOTE_PERIOD_US);
-    doubt(&self->accelerometer, &self->virtual_imu.channel[0]);
-    doubt(&self->gyroscope, &self->virtual_imu.channel[ACCELEROMETER]);
+    keep_doubt(&self->accelerometer, &self->virtual_imu.channel[0]);
+    keep_doubt(&self->gyroscope, &self->virtual_imu.channel[ACCELEROMETER]);
     keel_attitude_take(&sample, &self->virtual_imu);
     if (copter->plain_mean) {
         take_mean(self, &sample, unit);

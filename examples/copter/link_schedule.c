@@ -22,7 +22,7 @@ void copter_link_schedule_ask(copter_link_schedule_t *schedule, uint32_t source)
     schedule->source[source].is_due = true;
 }
 
-static void wait(copter_source_t *source, uint32_t elapsed_us)
+static void let_wait(copter_source_t *source, uint32_t elapsed_us)
 {
     if (source->is_due) {
         const uint32_t room_us = UINT32_MAX - source->waited_us;
@@ -45,7 +45,7 @@ void copter_link_schedule_step(copter_link_schedule_t *schedule, uint32_t elapse
         schedule->credit = most;
     }
     for (uint32_t i = 0u; i < COPTER_LINK_SCHEDULE_SOURCES; i++) {
-        wait(&schedule->source[i], elapsed_us);
+        let_wait(&schedule->source[i], elapsed_us);
     }
 }
 

@@ -106,7 +106,7 @@ static bool define_subscription(copter_log_t *log, uint32_t number)
 }
 
 /* A part of what a log begins with becomes log->message; whether there is such a message. */
-static bool define(copter_t *copter, uint32_t number)
+static bool define_part(copter_t *copter, uint32_t number)
 {
     copter_log_t *const log = &copter->log;
     const uint32_t formats = (copter->port->restart != NULL) ? 4u : 3u;
@@ -139,7 +139,7 @@ static void write_definitions(copter_t *copter)
         if (port->log_room(port->context) < KEEL_ULOG_MESSAGE_BYTES) {
             return;
         }
-        if (define(copter, log->defined)) {
+        if (define_part(copter, log->defined)) {
             port->write_log(port->context, log->message.bytes, log->message.size);
         }
         log->defined++;
@@ -147,7 +147,7 @@ static void write_definitions(copter_t *copter)
 }
 
 /* A topic's data become log->message; whether they fit. */
-static bool take(copter_t *copter, uint32_t number)
+static bool fill_topic(copter_t *copter, uint32_t number)
 {
     copter_log_t *const log = &copter->log;
     const copter_topic_t *const topic = &copter_topic[number];
@@ -168,7 +168,7 @@ static bool take(copter_t *copter, uint32_t number)
 }
 
 /* Into the ring; when there is room again, behind what tells how long there was none. */
-static void store(copter_log_t *log, uint64_t now_us)
+static void store_sample(copter_log_t *log, uint64_t now_us)
 {
     keel_log_ring_loss_t loss;
 
@@ -191,11 +191,11 @@ void copter_log_run(copter_t *copter)
     if (!log->told[run->slot] || ((run->flags & KEEL_TRACE_FIRST) != 0u)) {
         keel_trace_task_message(&log->message, (uint16_t)(copter_topics + KEEL_TRACE_TOPIC_TASK),
                                 &copter->scheduler, run->slot);
-        store(log, run->start_us);
+        store_sample(log, run->start_us);
         log->told[run->slot] = true;
     }
     keel_trace_run_message(&log->message, (uint16_t)(copter_topics + KEEL_TRACE_TOPIC_RUN), run);
-    store(log, run->start_us);
+    store_sample(log, run->start_us);
 }
 
 void copter_log_runs(copter_t *copter)
@@ -215,7 +215,7 @@ static void tell_state(copter_t *copter)
         log->state = state;
         if (keel_ulog_logging(&log->message, KEEL_ULOG_INFORMATION, now_us, state_name[state],
                               (uint8_t)strlen(state_name[state]))) {
-            store(log, now_us);
+            store_sample(log, now_us);
         }
     }
 }
@@ -237,7 +237,7 @@ static void tell_refusal(copter_t *copter)
         memcpy(&line[begun], words, taken);
         if (keel_ulog_logging(&log->message, KEEL_ULOG_WARNING, now_us, line,
                               (uint8_t)(begun + taken))) {
-            store(log, now_us);
+            store_sample(log, now_us);
         }
     }
 }
@@ -252,8 +252,8 @@ void copter_log_sample(copter_t *copter, uint32_t row)
         if ((topic->row == row) && is_logged(log, topic)) {
             if (log->left[i] == 0u) {
                 log->left[i] = topic->every;
-                if (take(copter, i)) {
-                    store(log, copter->scheduler.clock.now_us);
+                if (fill_topic(copter, i)) {
+                    store_sample(log, copter->scheduler.clock.now_us);
                 }
             }
             log->left[i]--;
@@ -292,7 +292,7 @@ static void log_parameter(copter_t *copter)
     log->looked_at = index;
     if ((keel_parameter_bits(copter->parameters.in_force[index].value) != log->parameter[index]) &&
         define_parameter(copter, index)) {
-        store(log, copter->scheduler.clock.now_us);
+        store_sample(log, copter->scheduler.clock.now_us);
     }
 }
 

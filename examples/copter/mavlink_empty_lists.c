@@ -20,7 +20,7 @@ typedef struct asked {
     uint8_t result; /* The answer, of a kind that there is. */
 } asked_t;
 
-static void reply(copter_link_t *link, copter_reply_t answer)
+static void send_reply(copter_link_t *link, copter_reply_t answer)
 {
     if (link->replies.count < COPTER_REPLIES) {
         link->replies.reply[link->replies.count] = answer;
@@ -104,7 +104,7 @@ static void take_mission(copter_t *copter, const keel_mavlink_frame_t *frame, ui
     const bool is_known = is_kind(asked.kind, frame->id == MESSAGE_MISSION_CLEAR_ALL);
 
     if (copter_is_meant(link, asked.system, asked.component)) {
-        reply(link,
+        send_reply(link,
               (copter_reply_t){
                   .sent = (uint8_t)((lists && is_known) ? SENT_MISSION_COUNT : SENT_MISSION_ACK),
                   .system = frame->system,
@@ -132,7 +132,7 @@ static void take_log_list(copter_t *copter, const keel_mavlink_frame_t *frame, u
 
     message_log_request_list_unpack(&message, frame->payload);
     if (copter_is_meant(link, message.target_system, message.target_component)) {
-        reply(link, (copter_reply_t){.sent = (uint8_t)SENT_LOG_ENTRY});
+        send_reply(link, (copter_reply_t){.sent = (uint8_t)SENT_LOG_ENTRY});
     }
 }
 
@@ -143,7 +143,7 @@ static void take_log_data(copter_t *copter, const keel_mavlink_frame_t *frame, u
 
     message_log_request_data_unpack(&message, frame->payload);
     if (copter_is_meant(link, message.target_system, message.target_component)) {
-        reply(link, (copter_reply_t){
+        send_reply(link, (copter_reply_t){
                         .sent = (uint8_t)SENT_LOG_DATA, .log = message.id, .offset = message.ofs});
     }
 }

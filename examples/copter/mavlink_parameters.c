@@ -24,7 +24,7 @@
 #define LEAST_WHOLE (-2147483648.0f)
 #define MOST_WHOLE  2147483520.0f
 
-static void want(copter_link_t *link, uint32_t index)
+static void want_parameter(copter_link_t *link, uint32_t index)
 {
     link->wanted[index / WORD] |= (uint32_t)1u << (index % WORD);
 }
@@ -33,18 +33,18 @@ static void want(copter_link_t *link, uint32_t index)
 static void want_on_all(copter_telemetry_t *self, uint32_t index)
 {
     for (uint32_t i = 0u; i < COPTER_LINKS; i++) {
-        want(&self->link[i], index);
+        want_parameter(&self->link[i], index);
     }
 }
 
-static void say(copter_t *copter, uint32_t severity, uint16_t index, const char *what)
+static void say_parameter(copter_t *copter, uint32_t severity, uint16_t index, const char *what)
 {
     copter_text(copter->telemetry, (uint8_t)severity,
                 keel_parameters_name(&copter->parameters.table, index), what);
 }
 
 /* The request is refused: the sender is to be told. */
-static void refuse(copter_link_t *link, const keel_mavlink_frame_t *from, const char *name,
+static void refuse_parameter(copter_link_t *link, const keel_mavlink_frame_t *from, const char *name,
                    int16_t index, uint32_t error)
 {
     message_param_error_t *const message = &link->error[link->errors];
@@ -88,7 +88,7 @@ static const char *value_of(keel_parameter_type_t type, const message_param_set_
 }
 
 /* Sets a parameter; or says, in words, why not. */
-static const char *set(keel_parameters_t *table, uint16_t index, const message_param_set_t *message)
+static const char *set_value(keel_parameters_t *table, uint16_t index, const message_param_set_t *message)
 {
     keel_parameter_value_t value;
     const char *const reason = value_of(keel_parameters_get(table, index).type, message, &value);
@@ -111,9 +111,9 @@ static void tell_wait(copter_t *copter, uint16_t index)
         return;
     }
     if (copter_parameter[index].restarts) {
-        say(copter, MAV_SEVERITY_WARNING, index, ": in force after a restart");
+        say_parameter(copter, MAV_SEVERITY_WARNING, index, ": in force after a restart");
     } else if (copter->state.mode.state != KEEL_MODE_DISARMED) {
-        say(copter, MAV_SEVERITY_INFO, index, ": in force once disarmed");
+        say_parameter(copter, MAV_SEVERITY_INFO, index, ": in force once disarmed");
     } else {
         /* It is in force before anything else is taken. */
     }
@@ -131,7 +131,7 @@ void copter_mavlink_tell_parameters(copter_t *copter)
         if (waits) {
             tell_wait(copter, i);
         } else if (is_lost) {
-            say(copter, MAV_SEVERITY_WARNING, i, ": the stored value is not taken");
+            say_parameter(copter, MAV_SEVERITY_WARNING, i, ": the stored value is not taken");
         } else {
             /* It is as it was set. */
         }
@@ -153,16 +153,16 @@ void copter_mavlink_read_parameter(copter_t *copter, uint32_t link,
                                : (uint32_t)message->param_index;
 
     if (index < COPTER_PARAMETER_COUNT) {
-        want(to, index);
+        want_parameter(to, index);
     } else {
-        refuse(to, from, message->param_id, message->param_index, MAV_PARAM_ERROR_DOES_NOT_EXIST);
+        refuse_parameter(to, from, message->param_id, message->param_index, MAV_PARAM_ERROR_DOES_NOT_EXIST);
     }
 }
 
 void copter_mavlink_list_parameters(copter_t *copter, uint32_t link)
 {
     for (uint32_t i = 0u; i < COPTER_PARAMETER_COUNT; i++) {
-        want(&copter->telemetry->link[link], i);
+        want_parameter(&copter->telemetry->link[link], i);
     }
     copter_mavlink_tell_parameters(copter);
 }
@@ -185,21 +185,21 @@ void copter_mavlink_set_parameter(copter_t *copter, uint32_t link, const keel_ma
 
     if (index >= COPTER_PARAMETER_COUNT) {
         copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "parameter: ", "there is no such one");
-        refuse(to, from, message->param_id, NO_INDEX, MAV_PARAM_ERROR_DOES_NOT_EXIST);
+        refuse_parameter(to, from, message->param_id, NO_INDEX, MAV_PARAM_ERROR_DOES_NOT_EXIST);
         return;
     }
     if (!may) {
-        refuse(to, from, message->param_id, NO_INDEX, MAV_PARAM_ERROR_PERMISSION_DENIED);
-        want(to, index);
+        refuse_parameter(to, from, message->param_id, NO_INDEX, MAV_PARAM_ERROR_PERMISSION_DENIED);
+        want_parameter(to, index);
         return;
     }
-    reason = set(table, index, message);
+    reason = set_value(table, index, message);
     if (reason == NULL) {
         copter_mavlink_parameter_is_set(copter, index);
         tell_wait(copter, index);
     } else {
-        say(copter, MAV_SEVERITY_WARNING, index, reason);
-        refuse(to, from, message->param_id, NO_INDEX, MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE);
+        say_parameter(copter, MAV_SEVERITY_WARNING, index, reason);
+        refuse_parameter(to, from, message->param_id, NO_INDEX, MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE);
         want_on_all(self, index);
     }
 }

@@ -28,7 +28,7 @@
 #define NOT_FOUND UINT32_MAX
 
 /* A text for each of what stands in the way. */
-static void tell(copter_telemetry_t *self, const char *what, const keel_mode_refusal_t *refusal)
+static void tell_reason(copter_telemetry_t *self, const char *what, const keel_mode_refusal_t *refusal)
 {
     for (uint32_t i = 0u; i < COPTER_OBSTACLES; i++) {
         const char *const words = copter_obstacle(refusal, i);
@@ -79,7 +79,7 @@ bool copter_command_is_empty(float param)
     return isnan(param) || keel_range_contains(param, 0.0f, 0.0f);
 }
 
-static uint32_t arm(copter_t *copter)
+static uint32_t ask_to_arm(copter_t *copter)
 {
     const keel_mode_t *const machine = &copter->state.mode;
 
@@ -87,7 +87,7 @@ static uint32_t arm(copter_t *copter)
         return MAV_RESULT_ACCEPTED;
     }
     if ((machine->blocking.checks != 0u) || (machine->blocking.facts != 0u) || !machine->ready) {
-        tell(copter->telemetry, COPTER_NOT_ARMED, &machine->blocking);
+        tell_reason(copter->telemetry, COPTER_NOT_ARMED, &machine->blocking);
         if ((machine->settled & KEEL_MODE_RC_LINKED) == 0u) {
             tell_refusal(copter->telemetry, "no radio link for long enough");
         } else if (!machine->ready) {
@@ -101,7 +101,7 @@ static uint32_t arm(copter_t *copter)
     return MAV_RESULT_IN_PROGRESS;
 }
 
-static uint32_t disarm(copter_t *copter)
+static uint32_t ask_to_disarm(copter_t *copter)
 {
     const keel_mode_t *const machine = &copter->state.mode;
 
@@ -139,7 +139,7 @@ static uint32_t arm_or_disarm(copter_t *copter, const copter_command_t *command)
         }
         return MAV_RESULT_DENIED;
     }
-    result = on ? arm(copter) : disarm(copter);
+    result = on ? ask_to_arm(copter) : ask_to_disarm(copter);
     if (result == MAV_RESULT_IN_PROGRESS) {
         self->arm_waiter = copter_command_waiter(command);
     }
@@ -232,7 +232,7 @@ static const order_t orders[] = {
     {MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, copter_command_reboot},
 };
 
-static uint32_t order(copter_t *copter, const copter_command_t *command)
+static uint32_t run_command(copter_t *copter, const copter_command_t *command)
 {
     for (uint32_t i = 0u; i < (sizeof orders / sizeof orders[0]); i++) {
         if (orders[i].id == command->id) {
@@ -251,11 +251,11 @@ static uint32_t result_of(copter_t *copter, const copter_command_t *command)
     case MAV_CMD_REQUEST_MESSAGE:
         return request_message(copter, command);
     default:
-        return order(copter, command);
+        return run_command(copter, command);
     }
 }
 
-static void obey(copter_t *copter, const copter_command_t *command)
+static void obey_command(copter_t *copter, const copter_command_t *command)
 {
     const uint32_t result = result_of(copter, command);
 
@@ -287,7 +287,7 @@ static void take_command_long(copter_t *copter, const keel_mavlink_frame_t *fram
         command.param[4] = message.param5;
         command.param[5] = message.param6;
         command.param[6] = message.param7;
-        obey(copter, &command);
+        obey_command(copter, &command);
     }
 }
 
@@ -313,7 +313,7 @@ static void take_command_int(copter_t *copter, const keel_mavlink_frame_t *frame
         command.param[4] = place_of(message.x);
         command.param[5] = place_of(message.y);
         command.param[6] = message.z;
-        obey(copter, &command);
+        obey_command(copter, &command);
     }
 }
 
@@ -460,7 +460,7 @@ void copter_mavlink_receive(copter_t *copter, uint32_t link)
 }
 
 /* Tells who waits. Nobody waits any more. */
-static void answer(copter_telemetry_t *self, copter_moved_t *moved, copter_waiter_t *waiter)
+static void answer_waiter(copter_telemetry_t *self, copter_moved_t *moved, copter_waiter_t *waiter)
 {
     const bool done = moved->answer == COPTER_ANSWER_DONE;
 
@@ -482,7 +482,7 @@ static void tell_attempt(copter_t *copter)
 
     self->refusals = state->refusals;
     if ((request->arm.answer == COPTER_ANSWER_REFUSED) && request->arms) {
-        tell(self, COPTER_NOT_ARMED, is_tried ? &state->mode.refused : &state->mode.blocking);
+        tell_reason(self, COPTER_NOT_ARMED, is_tried ? &state->mode.refused : &state->mode.blocking);
     } else if (is_tried) {
         tell_refusal(self, copter_obstacle_first(&state->mode));
     } else {
@@ -498,13 +498,13 @@ void copter_mavlink_pass_answers(copter_t *copter)
 
     tell_attempt(copter);
     if (request->arm.answer > COPTER_ANSWER_WAITS) {
-        answer(self, &request->arm, &self->arm_waiter);
+        answer_waiter(self, &request->arm, &self->arm_waiter);
     }
     if (request->mode.answer > COPTER_ANSWER_WAITS) {
         if (request->mode.answer == COPTER_ANSWER_REFUSED) {
             copter_text(self, (uint8_t)MAV_SEVERITY_WARNING, "mode: ", "the aircraft cannot");
-            tell(self, "mode: ", &(keel_mode_refusal_t){.facts = machine->missing});
+            tell_reason(self, "mode: ", &(keel_mode_refusal_t){.facts = machine->missing});
         }
-        answer(self, &request->mode, &self->mode_waiter);
+        answer_waiter(self, &request->mode, &self->mode_waiter);
     }
 }

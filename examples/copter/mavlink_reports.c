@@ -32,12 +32,12 @@
 #define SCALE_M      44330.8f
 #define EXPONENT     0.190263f
 
-static int16_t small(float value)
+static int16_t as_int16(float value)
 {
     return (int16_t)keel_range_clamp(value, -32767.0f, 32767.0f);
 }
 
-static uint16_t plain(float value)
+static uint16_t as_uint16(float value)
 {
     return (uint16_t)keel_range_clamp(value, 0.0f, 65534.0f);
 }
@@ -52,7 +52,7 @@ static uint32_t now_ms(const copter_t *copter)
     return (uint32_t)(copter->scheduler.clock.now_us / US_PER_MS);
 }
 
-static uint32_t when(bool condition, uint32_t bit)
+static uint32_t bit_when(bool condition, uint32_t bit)
 {
     return condition ? bit : 0u;
 }
@@ -117,7 +117,7 @@ static uint32_t flags_of(const keel_mode_t *machine, uint8_t told)
         return 0u;
     }
     return (alone ? MAV_MODE_FLAG_AUTO_ENABLED : MAV_MODE_FLAG_MANUAL_INPUT_ENABLED) |
-           when(told != KEEL_MODE_ACRO, MAV_MODE_FLAG_STABILIZE_ENABLED);
+           bit_when(told != KEEL_MODE_ACRO, MAV_MODE_FLAG_STABILIZE_ENABLED);
 }
 
 static void heartbeat(const copter_t *copter, uint8_t *payload)
@@ -129,7 +129,7 @@ static void heartbeat(const copter_t *copter, uint8_t *payload)
         .type = (uint8_t)MAV_TYPE_QUADROTOR,
         .autopilot = (uint8_t)MAV_AUTOPILOT_GENERIC,
         .base_mode = (uint8_t)(MAV_MODE_FLAG_CUSTOM_MODE_ENABLED |
-                               when(machine->motors, MAV_MODE_FLAG_SAFETY_ARMED) |
+                               bit_when(machine->motors, MAV_MODE_FLAG_SAFETY_ARMED) |
                                flags_of(machine, told)),
         .system_status = status_of(copter),
         .mavlink_version = 3u};
@@ -139,7 +139,7 @@ static void heartbeat(const copter_t *copter, uint8_t *payload)
 
 static uint16_t volts(const copter_t *copter)
 {
-    return plain(copter->power.battery.voltage * MILLI);
+    return as_uint16(copter->power.battery.voltage * MILLI);
 }
 
 static int8_t charge_left(const keel_battery_t *battery)
@@ -155,22 +155,22 @@ static uint16_t at_most(uint32_t count)
     return (uint16_t)((count < UNKNOWN_16) ? count : UNKNOWN_16);
 }
 
-static uint32_t healthy(const copter_t *copter)
+static uint32_t healthy_sensors(const copter_t *copter)
 {
     const uint32_t blocking = copter->state.mode.blocking.checks;
     const keel_mode_t *const mode = &copter->state.mode;
 
-    return when((blocking & KEEL_MODE_CHECK_GYROSCOPE) == 0u, MAV_SYS_STATUS_SENSOR_3D_GYRO) |
-           when((blocking & KEEL_MODE_CHECK_ACCELEROMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_ACCEL) |
-           when((blocking & KEEL_MODE_CHECK_MAGNETOMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_MAG) |
-           when((copter->estimate.altitude.axis.quality == KEEL_AXIS_GOOD) &&
+    return bit_when((blocking & KEEL_MODE_CHECK_GYROSCOPE) == 0u, MAV_SYS_STATUS_SENSOR_3D_GYRO) |
+           bit_when((blocking & KEEL_MODE_CHECK_ACCELEROMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_ACCEL) |
+           bit_when((blocking & KEEL_MODE_CHECK_MAGNETOMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_MAG) |
+           bit_when((copter->estimate.altitude.axis.quality == KEEL_AXIS_GOOD) &&
                     ((blocking & COPTER_CHECK_GROUND_PRESSURE) == 0u),
                 MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) |
-           when(copter->estimate.position.quality == KEEL_AXIS_GOOD, MAV_SYS_STATUS_SENSOR_GPS) |
-           when((mode->settled & KEEL_MODE_RC_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
-           when(copter->power.battery.level == KEEL_BATTERY_OK, MAV_SYS_STATUS_SENSOR_BATTERY) |
-           when((mode->seen & KEEL_MODE_FENCE_BREACHED) == 0u, MAV_SYS_STATUS_GEOFENCE) |
-           when(mode->motors || ((blocking == 0u) && (mode->blocking.facts == 0u)),
+           bit_when(copter->estimate.position.quality == KEEL_AXIS_GOOD, MAV_SYS_STATUS_SENSOR_GPS) |
+           bit_when((mode->settled & KEEL_MODE_RC_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
+           bit_when(copter->power.battery.level == KEEL_BATTERY_OK, MAV_SYS_STATUS_SENSOR_BATTERY) |
+           bit_when((mode->seen & KEEL_MODE_FENCE_BREACHED) == 0u, MAV_SYS_STATUS_GEOFENCE) |
+           bit_when(mode->motors || ((blocking == 0u) && (mode->blocking.facts == 0u)),
                 MAV_SYS_STATUS_PREARM_CHECK);
 }
 
@@ -185,10 +185,10 @@ static void sys_status(const copter_t *copter, const copter_link_t *link, uint8_
     const message_sys_status_t message = {
         .onboard_control_sensors_present = present,
         .onboard_control_sensors_enabled = present,
-        .onboard_control_sensors_health = healthy(copter),
+        .onboard_control_sensors_health = healthy_sensors(copter),
         .load = (uint16_t)(copter->health.load_ppm / US_PER_MS),
         .voltage_battery = volts(copter),
-        .current_battery = small(copter->power.battery.current * CENTI),
+        .current_battery = as_int16(copter->power.battery.current * CENTI),
         .battery_remaining = charge_left(&copter->power.battery),
         .errors_comm = at_most(errors),
         .errors_count1 = at_most(copter->health.overruns),
@@ -224,12 +224,12 @@ static bool scaled_imu(const copter_t *copter, uint32_t unit, uint8_t *payload)
     const float *const value = sample->value;
     const float milli_g = MILLI / KEEL_CASCADE_GRAVITY;
     const message_scaled_imu_t message = {.time_boot_ms = now_ms(copter),
-                                          .xacc = small(value[0] * milli_g),
-                                          .yacc = small(value[1] * milli_g),
-                                          .zacc = small(value[2] * milli_g),
-                                          .xgyro = small(value[3] * MILLI),
-                                          .ygyro = small(value[4] * MILLI),
-                                          .zgyro = small(value[5] * MILLI),
+                                          .xacc = as_int16(value[0] * milli_g),
+                                          .yacc = as_int16(value[1] * milli_g),
+                                          .zacc = as_int16(value[2] * milli_g),
+                                          .xgyro = as_int16(value[3] * MILLI),
+                                          .ygyro = as_int16(value[4] * MILLI),
+                                          .zgyro = as_int16(value[5] * MILLI),
                                           .temperature = (temperature == 0) ? (int16_t)1
                                                                             : temperature};
 
@@ -295,8 +295,8 @@ static bool gps_raw_int(const copter_t *copter, uint8_t *payload)
         .alt = received->height_mm,
         .eph = (uint16_t)UNKNOWN_16,
         .epv = (uint16_t)UNKNOWN_16,
-        .vel = plain(speed * CENTI),
-        .cog = plain(((course < 0.0f) ? (course + FULL_TURN) : course) * CENTI),
+        .vel = as_uint16(speed * CENTI),
+        .cog = as_uint16(((course < 0.0f) ? (course + FULL_TURN) : course) * CENTI),
         .fix_type = (uint8_t)(fix->is_valid ? GPS_FIX_TYPE_3D_FIX : GPS_FIX_TYPE_NO_FIX),
         .satellites_visible = received->satellites,
         .h_acc = (uint32_t)millimetres(keel_range_clamp(fix->accuracy, 0.0f, FAR_M)),
@@ -363,7 +363,7 @@ static bool vfr_hud(const copter_t *copter, uint8_t *payload)
             .groundspeed = speed,
             .alt = sea_level_of_reference(altitude) + altitude->zero + here->position.up,
             .climb = here->velocity.up,
-            .heading = small((heading < 0.0f) ? (heading + FULL_TURN) : heading),
+            .heading = as_int16((heading < 0.0f) ? (heading + FULL_TURN) : heading),
             .throttle = (uint16_t)keel_range_clamp(thrust * PERCENT, 0.0f, PERCENT)};
 
         message_vfr_hud_pack(&message, payload);
@@ -447,9 +447,9 @@ static bool global_position_int(const copter_t *copter, uint8_t *payload)
         .time_boot_ms = now_ms(copter),
         .alt = millimetres(sea_m + altitude->zero + here->position.up),
         .relative_alt = millimetres(here->position.up),
-        .vx = small(position->north.velocity * CENTI),
-        .vy = small(position->east.velocity * CENTI),
-        .vz = small(-here->velocity.up * CENTI),
+        .vx = as_int16(position->north.velocity * CENTI),
+        .vy = as_int16(position->east.velocity * CENTI),
+        .vz = as_int16(-here->velocity.up * CENTI),
         .hdg = (uint16_t)UNKNOWN_16};
     float angle[3];
 
@@ -460,7 +460,7 @@ static bool global_position_int(const copter_t *copter, uint8_t *payload)
     if (copter->imu.attitude.heading_valid) {
         const float heading = angle[2] * DEGREES;
 
-        message.hdg = plain(((heading < 0.0f) ? (heading + FULL_TURN) : heading) * CENTI);
+        message.hdg = as_uint16(((heading < 0.0f) ? (heading + FULL_TURN) : heading) * CENTI);
     }
     message.lat = along(position->latitude, position->north.position, position->north_scale);
     message.lon = along(position->longitude, position->east.position, position->east_scale);
@@ -545,7 +545,7 @@ static void battery_status(const copter_t *copter, uint8_t *payload)
         .energy_consumed = known ? (int32_t)keel_range_clamp(battery->energy_j / CENTI, 0.0f, FAR_M)
                                  : -1,
         .temperature = INT16_MAX,
-        .current_battery = small(battery->current * CENTI),
+        .current_battery = as_int16(battery->current * CENTI),
         .battery_function = (uint8_t)MAV_BATTERY_FUNCTION_ALL,
         .type = (uint8_t)MAV_BATTERY_TYPE_LIPO,
         .battery_remaining = charge_left(battery),
@@ -599,11 +599,11 @@ static void estimator_status(const copter_t *copter, uint8_t *payload)
         .time_usec = copter->scheduler.clock.now_us,
         .pos_horiz_accuracy = copter->gps.fix.accuracy,
         .pos_vert_accuracy = 1.0f,
-        .flags = (uint16_t)(when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING,
+        .flags = (uint16_t)(bit_when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING,
                                  ESTIMATOR_ATTITUDE) |
-                            when(has_place, ESTIMATOR_VELOCITY_HORIZ | ESTIMATOR_POS_HORIZ_REL |
+                            bit_when(has_place, ESTIMATOR_VELOCITY_HORIZ | ESTIMATOR_POS_HORIZ_REL |
                                                 ESTIMATOR_POS_HORIZ_ABS) |
-                            when(has_height, ESTIMATOR_VELOCITY_VERT | ESTIMATOR_POS_VERT_ABS))};
+                            bit_when(has_height, ESTIMATOR_VELOCITY_VERT | ESTIMATOR_POS_VERT_ABS))};
 
     message_estimator_status_pack(&message, payload);
 }
@@ -759,7 +759,7 @@ static bool serial_control(const copter_t *copter, copter_link_t *link, uint8_t 
 }
 
 /* Messages that a station shows, or asks for as it connects. */
-static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+static bool fill_for_station(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
     bool said = true;
 
@@ -795,7 +795,7 @@ static bool stations(const copter_t *copter, copter_link_t *link, uint32_t sent,
     return said;
 }
 
-static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+static bool fill_answer(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
     bool said = true;
 
@@ -822,13 +822,13 @@ static bool answers(const copter_t *copter, copter_link_t *link, uint32_t sent, 
         said = copter_mavlink_modes_available(link, payload);
         break;
     default:
-        said = stations(copter, link, sent, payload);
+        said = fill_for_station(copter, link, sent, payload);
         break;
     }
     return said;
 }
 
-static bool places(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+static bool fill_place(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
 {
     bool said = true;
 
@@ -864,7 +864,7 @@ static bool places(const copter_t *copter, copter_link_t *link, uint32_t sent, u
         said = rc_channels(copter, payload);
         break;
     default:
-        said = answers(copter, link, sent, payload);
+        said = fill_answer(copter, link, sent, payload);
         break;
     }
     return said;
@@ -907,7 +907,7 @@ bool copter_mavlink_report(const copter_t *copter, copter_link_t *link, uint32_t
         named_value_int(copter, link, payload);
         break;
     default:
-        said = places(copter, link, sent, payload);
+        said = fill_place(copter, link, sent, payload);
         break;
     }
     return said;

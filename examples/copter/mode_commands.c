@@ -28,7 +28,7 @@ static uint32_t whole_of(float param, float most)
     return is_whole ? whole : NOT_WHOLE;
 }
 
-static uint32_t refuse(copter_t *copter, uint32_t result, const char *reason)
+static uint32_t refuse_command(copter_t *copter, uint32_t result, const char *reason)
 {
     copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING, "mode: ", reason);
     return result;
@@ -57,16 +57,16 @@ static uint32_t ask_for(copter_t *copter, const copter_command_t *command, uint8
     if (request->mode.answer == COPTER_ANSWER_WAITS) {
         return (copter_command_is_again(&self->mode_waiter, command) && (mode == request->asked))
                    ? MAV_RESULT_IN_PROGRESS
-                   : refuse(copter, MAV_RESULT_TEMPORARILY_REJECTED, "another is being asked for");
+                   : refuse_command(copter, MAV_RESULT_TEMPORARILY_REJECTED, "another is being asked for");
     }
     if (!is_safe(mode)) {
-        return refuse(copter, MAV_RESULT_DENIED, "only by the pilot's switch");
+        return refuse_command(copter, MAV_RESULT_DENIED, "only by the pilot's switch");
     }
     if ((machine->settled & KEEL_MODE_RC_LINKED) == 0u) {
-        return refuse(copter, MAV_RESULT_TEMPORARILY_REJECTED, "no radio link");
+        return refuse_command(copter, MAV_RESULT_TEMPORARILY_REJECTED, "no radio link");
     }
     if (is_last(mode) && !machine->motors) {
-        return refuse(copter, MAV_RESULT_TEMPORARILY_REJECTED, "not flying");
+        return refuse_command(copter, MAV_RESULT_TEMPORARILY_REJECTED, "not flying");
     }
     copter_action_request_mode(&copter->request, mode, copter->pilot.asked);
     self->mode_waiter = copter_command_waiter(command);
@@ -74,7 +74,7 @@ static uint32_t ask_for(copter_t *copter, const copter_command_t *command, uint8
 }
 
 /* Position hold with a pilot whose sticks ask for nothing: with others it would not hold. */
-static uint32_t hold(copter_t *copter, const copter_command_t *command)
+static uint32_t hold_place(copter_t *copter, const copter_command_t *command)
 {
     const keel_reference_setpoints_t *const sticks = &copter->pilot.reference.setpoints;
     const bool rest = keel_range_contains(sticks->forward, 0.0f, 0.0f) &&
@@ -82,7 +82,7 @@ static uint32_t hold(copter_t *copter, const copter_command_t *command)
                       keel_range_contains(sticks->climb_rate, 0.0f, 0.0f);
 
     return rest ? ask_for(copter, command, (uint8_t)KEEL_MODE_POSITION)
-                : refuse(copter, MAV_RESULT_TEMPORARILY_REJECTED, "hold: sticks not centred");
+                : refuse_command(copter, MAV_RESULT_TEMPORARILY_REJECTED, "hold: sticks not centred");
 }
 
 /* By its number. */
@@ -91,7 +91,7 @@ static uint32_t ask_for_number(copter_t *copter, const copter_command_t *command
     const uint8_t mode = copter_mavlink_mode_of_number(number);
 
     return (mode == (uint8_t)KEEL_MODE_NONE)
-               ? refuse(copter, MAV_RESULT_DENIED, "there is no such one")
+               ? refuse_command(copter, MAV_RESULT_DENIED, "there is no such one")
                : ask_for(copter, command, mode);
 }
 
@@ -102,7 +102,7 @@ static uint32_t ask_for_pair(copter_t *copter, const copter_command_t *command)
     const uint32_t sub_mode = whole_of(command->param[SUB_MODE], BYTE_MOST);
 
     if ((main_mode == COPTER_MODE_AUTO) && (sub_mode == COPTER_MODE_HOLD)) {
-        return hold(copter, command);
+        return hold_place(copter, command);
     }
     return ask_for_number(copter, command,
                           ((main_mode == NOT_WHOLE) || (sub_mode == NOT_WHOLE))
@@ -115,7 +115,7 @@ uint32_t copter_command_set_mode(copter_t *copter, const copter_command_t *comma
     const uint32_t base = whole_of(command->param[BASE_MODE], BYTE_MOST);
 
     if ((base == NOT_WHOLE) || ((base & CUSTOM) == 0u)) {
-        return refuse(copter, MAV_RESULT_DENIED, "only custom modes");
+        return refuse_command(copter, MAV_RESULT_DENIED, "only custom modes");
     }
     return copter_command_is_empty(command->param[SUB_MODE])
                ? ask_for_number(copter, command, whole_of(command->param[MAIN_MODE], NUMBER_MOST))
@@ -126,7 +126,7 @@ uint32_t copter_command_set_mode_by_number(copter_t *copter, const copter_comman
                                            bool is_custom, uint32_t number)
 {
     return is_custom ? ask_for_number(copter, command, number)
-                     : refuse(copter, MAV_RESULT_DENIED, "only custom modes");
+                     : refuse_command(copter, MAV_RESULT_DENIED, "only custom modes");
 }
 
 uint32_t copter_command_set_standard_mode(copter_t *copter, const copter_command_t *command)
@@ -135,7 +135,7 @@ uint32_t copter_command_set_standard_mode(copter_t *copter, const copter_command
 
     /* The standard has FAILED for a mode that there is not. */
     return (mode == (uint8_t)KEEL_MODE_NONE)
-               ? refuse(copter, MAV_RESULT_FAILED, "there is no such one")
+               ? refuse_command(copter, MAV_RESULT_FAILED, "there is no such one")
                : ask_for(copter, command, mode);
 }
 
@@ -149,7 +149,7 @@ static bool is_here(const copter_command_t *command)
 uint32_t copter_command_land(copter_t *copter, const copter_command_t *command)
 {
     if (!is_here(command) || !copter_command_is_empty(command->param[PRECISION])) {
-        return refuse(copter, MAV_RESULT_DENIED, "it lands where it is");
+        return refuse_command(copter, MAV_RESULT_DENIED, "it lands where it is");
     }
     return ask_for(copter, command, (uint8_t)KEEL_MODE_LAND);
 }
@@ -161,8 +161,8 @@ uint32_t copter_command_return(copter_t *copter, const copter_command_t *command
 
 uint32_t copter_command_hold(copter_t *copter, const copter_command_t *command)
 {
-    return is_here(command) ? hold(copter, command)
-                            : refuse(copter, MAV_RESULT_DENIED, "it holds where it is");
+    return is_here(command) ? hold_place(copter, command)
+                            : refuse_command(copter, MAV_RESULT_DENIED, "it holds where it is");
 }
 
 uint32_t copter_command_take_off(copter_t *copter, const copter_command_t *command)

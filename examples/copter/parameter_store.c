@@ -76,7 +76,7 @@ static keel_status_t check_settings(void *context, const keel_parameter_entry_t 
     return try_units(&tried);
 }
 
-static void load(copter_parameter_store_t *store, const keel_medium_t *memory)
+static void load_kept(copter_parameter_store_t *store, const keel_medium_t *memory)
 {
     const keel_slots_config_t config = {.medium = *memory,
                                         .address = {COPTER_PARAMETER_FIRST, COPTER_PARAMETER_OTHER},
@@ -135,7 +135,7 @@ keel_status_t copter_parameter_store_start(copter_parameter_store_t *store,
     store->saved = KEEL_SLOTS_DONE;
     store->has_memory = false;
     if (memory != NULL) {
-        load(store, memory);
+        load_kept(store, memory);
     }
     put_in_force(store, true);
     return KEEL_OK;

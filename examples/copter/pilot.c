@@ -134,7 +134,7 @@ static copter_heard_t silence_of(bool received, const uint32_t refused[COPTER_RE
 }
 
 /* At the end of a second: whether the pilot was heard in it, or why not. */
-static void listen(copter_pilot_t *self)
+static void conclude_second(copter_pilot_t *self)
 {
     copter_pilot_ear_t *const ear = &self->ear;
     uint32_t refused[COPTER_REFUSALS];
@@ -158,7 +158,7 @@ static void listen(copter_pilot_t *self)
 }
 
 /* A frame of the pilot. */
-static void obey(copter_pilot_t *self)
+static void obey_frame(copter_pilot_t *self)
 {
     const uint16_t *const channel = self->rc.channel;
 
@@ -176,7 +176,7 @@ static void obey(copter_pilot_t *self)
 void copter_foreground_radio(copter_pilot_t *self)
 {
     if ((self->rc.frames != self->read) && !self->rc.is_lost) {
-        obey(self);
+        obey_frame(self);
     }
-    listen(self);
+    conclude_second(self);
 }

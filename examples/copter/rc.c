@@ -48,7 +48,7 @@ static bool take_by(copter_rc_t *self, uint8_t protocol, const copter_byte_t *by
 
 /* One more frame of a protocol, while none is known. A frame with a checksum is no other by
  * chance. */
-static void hear(copter_rc_t *self, uint8_t protocol)
+static void hear_protocol(copter_rc_t *self, uint8_t protocol)
 {
     const uint8_t row = (uint8_t)(self->row[protocol] + 1u);
     const bool is_checked = (protocol == COPTER_PROTOCOL_CRSF) ||
@@ -85,7 +85,7 @@ static uint16_t channel_us(const copter_rc_t *self, uint32_t index)
     return us;
 }
 
-static void publish(copter_rc_t *self)
+static void publish_channels(copter_rc_t *self)
 {
     const keel_sbus_frame_t *const sbus = &self->sbus.frame;
     const keel_crsf_t *const crsf = &self->crsf;
@@ -117,13 +117,13 @@ void copter_rc_count(const copter_rc_t *self, uint32_t refused[COPTER_REFUSALS])
 }
 
 /* All decoders take a byte, until one of them is known. */
-static bool listen(copter_rc_t *self, const copter_byte_t *byte)
+static bool feed_decoder(copter_rc_t *self, const copter_byte_t *byte)
 {
     bool taken = false;
 
     for (uint8_t i = COPTER_PROTOCOL_SBUS; (i < COPTER_PROTOCOLS) && !taken; i++) {
         if (take_by(self, i, byte)) {
-            hear(self, i);
+            hear_protocol(self, i);
             taken = self->protocol == i;
         }
     }
@@ -133,11 +133,11 @@ static bool listen(copter_rc_t *self, const copter_byte_t *byte)
 bool copter_rc_take(copter_rc_t *self, const copter_byte_t *byte)
 {
     const bool taken = (self->protocol == COPTER_PROTOCOL_ANY)
-                           ? listen(self, byte)
+                           ? feed_decoder(self, byte)
                            : take_by(self, self->protocol, byte);
 
     if (taken) {
-        publish(self);
+        publish_channels(self);
     }
     return taken;
 }

@@ -15,7 +15,7 @@
 #define COMPONENT 2u
 #define FORCE     5u
 
-static uint32_t refuse(copter_t *copter, uint32_t result, const char *reason)
+static uint32_t refuse_reboot(copter_t *copter, uint32_t result, const char *reason)
 {
     copter_text(copter->telemetry, (uint8_t)MAV_SEVERITY_WARNING, "not rebooted: ", reason);
     return result;
@@ -35,13 +35,13 @@ static bool is_plain(const copter_command_t *command)
 uint32_t copter_command_reboot(copter_t *copter, const copter_command_t *command)
 {
     if (copter->port->reboot == NULL) {
-        return refuse(copter, MAV_RESULT_UNSUPPORTED, "the board has no way");
+        return refuse_reboot(copter, MAV_RESULT_UNSUPPORTED, "the board has no way");
     }
     if (!is_plain(command)) {
-        return refuse(copter, MAV_RESULT_DENIED, "only the autopilot, not by force");
+        return refuse_reboot(copter, MAV_RESULT_DENIED, "only the autopilot, not by force");
     }
     if (copter->state.mode.motors) {
-        return refuse(copter, MAV_RESULT_TEMPORARILY_REJECTED, "armed");
+        return refuse_reboot(copter, MAV_RESULT_TEMPORARILY_REJECTED, "armed");
     }
     copter->telemetry->reboots_us = copter->scheduler.clock.now_us + ANSWER_US;
     return MAV_RESULT_ACCEPTED;
@@ -56,7 +56,7 @@ void copter_reboot_step(copter_t *copter)
         return;
     }
     if (copter->state.mode.motors) {
-        (void)refuse(copter, 0u, "armed meanwhile");
+        (void)refuse_reboot(copter, 0u, "armed meanwhile");
         self->reboots_us = 0u;
     } else if ((copter->scheduler.clock.now_us >= self->reboots_us) && !saves) {
         self->reboots_us = 0u;

@@ -45,7 +45,7 @@ static bool is_typed(uint8_t byte)
     return (byte == (uint8_t)'\n') || ((byte >= FIRST_SHOWN) && (byte <= LAST_SHOWN));
 }
 
-static bool type(copter_shell_station_t *station, const uint8_t *byte, uint32_t count)
+static bool type_bytes(copter_shell_station_t *station, const uint8_t *byte, uint32_t count)
 {
     bool fits = true;
 
@@ -78,7 +78,7 @@ bool copter_shell_take(copter_shell_t *shell, const message_serial_control_t *me
             shell->station[place].is_open = false;
         }
     } else if (message->count > 0u) {
-        fits = type(open_place(shell, system, component), message->data, message->count);
+        fits = type_bytes(open_place(shell, system, component), message->data, message->count);
     } else {
         /* Some only ask whether there is more. */
     }
@@ -97,7 +97,7 @@ static uint32_t typed_line(const copter_shell_station_t *station)
     return (station->count == COPTER_SHELL_TYPED) ? COPTER_SHELL_TYPED : 0u;
 }
 
-static bool waits(const copter_shell_station_t *station)
+static bool has_output(const copter_shell_station_t *station)
 {
     return station->is_open &&
            ((station->sent < station->length) || station->answers || (typed_line(station) > 0u));
@@ -140,10 +140,10 @@ static void next_line(const struct copter *copter, copter_shell_station_t *stati
 }
 
 /* Of a table at most one line is made: none of them is shorter than a message. */
-static void fill(const struct copter *copter, copter_shell_station_t *station,
+static void fill_answer(const struct copter *copter, copter_shell_station_t *station,
                  message_serial_control_t *message)
 {
-    while (waits(station) && (message->count < DATA)) {
+    while (has_output(station) && (message->count < DATA)) {
         const uint32_t room = DATA - message->count;
         uint32_t left = (uint32_t)station->length - station->sent;
 
@@ -163,7 +163,7 @@ bool copter_shell_waits(const copter_shell_t *shell)
     bool found = false;
 
     for (uint32_t i = 0u; i < COPTER_SHELL_STATIONS; i++) {
-        found = found || waits(&shell->station[i]);
+        found = found || has_output(&shell->station[i]);
     }
     return found;
 }
@@ -178,12 +178,12 @@ bool copter_shell_report(const struct copter *copter, copter_shell_t *shell,
         do {
             shell->turn = (shell->turn + 1u) % COPTER_SHELL_STATIONS;
             station = &shell->station[shell->turn];
-        } while (!waits(station));
+        } while (!has_output(station));
         *message = (message_serial_control_t){.device = (uint8_t)SERIAL_CONTROL_DEV_SHELL,
                                               .flags = (uint8_t)SERIAL_CONTROL_FLAG_REPLY,
                                               .target_system = station->system,
                                               .target_component = station->component};
-        fill(copter, station, message);
+        fill_answer(copter, station, message);
     }
     return found;
 }

@@ -13,7 +13,7 @@ keel_status_t copter_state_machine_init(copter_state_t *state)
     return keel_mode_init(&state->mode, &copter_settings.mode);
 }
 
-static uint32_t when(bool condition, uint32_t bit)
+static uint32_t bit_when(bool condition, uint32_t bit)
 {
     return condition ? bit : 0u;
 }
@@ -69,16 +69,16 @@ static uint32_t facts_of(const copter_t *copter)
     const bool has_place = is_good(estimate->position.quality, before, KEEL_MODE_POSITION_VALID) &&
                            copter->imu.attitude.heading_valid;
 
-    return when(estimate->is_landed, KEEL_MODE_LANDED) |
-           when(has_place && is_home(copter), KEEL_MODE_AT_HOME) |
-           when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_ATTITUDE_VALID) |
-           when(is_good(estimate->vertical.quality, before, KEEL_MODE_ALTITUDE_VALID),
+    return bit_when(estimate->is_landed, KEEL_MODE_LANDED) |
+           bit_when(has_place && is_home(copter), KEEL_MODE_AT_HOME) |
+           bit_when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_ATTITUDE_VALID) |
+           bit_when(is_good(estimate->vertical.quality, before, KEEL_MODE_ALTITUDE_VALID),
                 KEEL_MODE_ALTITUDE_VALID) |
-           when(has_place, KEEL_MODE_POSITION_VALID) |
-           when(has_place && has_home(copter) && (side_of(copter) != COPTER_SIDE_NONE),
+           bit_when(has_place, KEEL_MODE_POSITION_VALID) |
+           bit_when(has_place && has_home(copter) && (side_of(copter) != COPTER_SIDE_NONE),
                 KEEL_MODE_FENCE_BREACHED) |
-           when(level >= KEEL_BATTERY_LOW, KEEL_MODE_BATTERY_CRITICAL) |
-           when(level >= KEEL_BATTERY_CRITICAL, KEEL_MODE_BATTERY_EMPTY);
+           bit_when(level >= KEEL_BATTERY_LOW, KEEL_MODE_BATTERY_CRITICAL) |
+           bit_when(level >= KEEL_BATTERY_CRITICAL, KEEL_MODE_BATTERY_EMPTY);
 }
 
 /* Whether the votes of some channels are each confirmed by a second unit. */
@@ -157,17 +157,17 @@ static uint32_t checks_of(const copter_t *copter)
     const copter_estimate_t *const estimate = &copter->estimate;
 
     return copter->health.checks | copter->calibration.checks |
-           when(are_confirmed(imu, 0u, KEEL_VIRTUAL_IMU_ACCELEROMETER),
+           bit_when(are_confirmed(imu, 0u, KEEL_VIRTUAL_IMU_ACCELEROMETER),
                 KEEL_MODE_CHECK_ACCELEROMETER) |
-           when(are_confirmed(imu, KEEL_VIRTUAL_IMU_ACCELEROMETER, KEEL_VIRTUAL_IMU_CHANNELS),
+           bit_when(are_confirmed(imu, KEEL_VIRTUAL_IMU_ACCELEROMETER, KEEL_VIRTUAL_IMU_CHANNELS),
                 KEEL_MODE_CHECK_GYROSCOPE) |
-           when(estimate->altitude.axis.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_BAROMETER) |
-           when(estimate->position.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_POSITION_ESTIMATE) |
-           when(copter->imu.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL_ATTITUDE) |
-           when(copter->power.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY_LEVEL) |
-           when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME_POSITION) |
-           when(may_be_of_ground(&copter->barometer), COPTER_CHECK_GROUND_PRESSURE) |
-           when(may_start(copter->port), COPTER_CHECK_SAFETY_SWITCH);
+           bit_when(estimate->altitude.axis.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_BAROMETER) |
+           bit_when(estimate->position.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_POSITION_ESTIMATE) |
+           bit_when(copter->imu.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL_ATTITUDE) |
+           bit_when(copter->power.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY_LEVEL) |
+           bit_when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME_POSITION) |
+           bit_when(may_be_of_ground(&copter->barometer), COPTER_CHECK_GROUND_PRESSURE) |
+           bit_when(may_start(copter->port), COPTER_CHECK_SAFETY_SWITCH);
 }
 
 /* Counts when the aircraft goes out of the fence. */

@@ -102,7 +102,7 @@ keel_status_t copter_telemetry_start(copter_t *copter, copter_telemetry_t *telem
 }
 
 /* As much of a text as there is room for. */
-static uint32_t append(char to[COPTER_TEXT_LENGTH], uint32_t at, const char *text)
+static uint32_t append_text(char to[COPTER_TEXT_LENGTH], uint32_t at, const char *text)
 {
     uint32_t end = at;
 
@@ -118,7 +118,7 @@ void copter_text(copter_telemetry_t *self, uint8_t severity, const char *first, 
     copter_text_t *const text = &self->text[self->texts % COPTER_TEXTS];
 
     *text = (copter_text_t){.severity = severity};
-    (void)append(text->text, append(text->text, 0u, first), then);
+    (void)append_text(text->text, append_text(text->text, 0u, first), then);
     self->texts++;
 }
 
@@ -326,7 +326,7 @@ static void tell_imu(copter_telemetry_t *self, const copter_imu_t *imu)
 }
 
 /* Whoever does not sign, where frames are signed, is not heard. */
-static void take(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
+static void take_frame(copter_t *copter, uint32_t number, const keel_mavlink_frame_t *frame)
 {
     copter_telemetry_t *const self = copter->telemetry;
 
@@ -354,7 +354,7 @@ static bool read_line(copter_t *copter, uint32_t number)
 
 /* Acts on one frame at most; what is behind it waits for the next run, as does what is behind so
  * many looks that found a frame or a false beginning of one. */
-static void receive(copter_t *copter, uint32_t number)
+static void receive_bytes(copter_t *copter, uint32_t number)
 {
     copter_link_t *const link = &copter->telemetry->link[number];
     const bool silent = read_line(copter, number);
@@ -374,7 +374,7 @@ static void receive(copter_t *copter, uint32_t number)
         }
     }
     if (seen == KEEL_MAVLINK_FRAME) {
-        take(copter, number, &link->decoder.frame);
+        take_frame(copter, number, &link->decoder.frame);
     }
 }
 
@@ -461,7 +461,7 @@ static void run_link(copter_t *copter, uint32_t number)
     const uint64_t passed_us = now_us - link->ran_us;
 
     link->ran_us = now_us;
-    receive(copter, number);
+    receive_bytes(copter, number);
     copter_link_schedule_step(&link->schedule,
                               (passed_us < MILLION) ? (uint32_t)passed_us : MILLION);
     ask_for_queues(copter->telemetry, link);

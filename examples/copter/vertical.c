@@ -59,7 +59,7 @@ static void step_gps(copter_vertical_t *self, const copter_fix_t *fix, bool has_
 }
 
 /* Both heights count from the same place while both are known. */
-static void compare(copter_vertical_t *self, const keel_altitude_t *altitude)
+static void compare_heights(copter_vertical_t *self, const keel_altitude_t *altitude)
 {
     const float apart = self->gps.position - altitude->height;
 
@@ -88,7 +88,7 @@ void copter_vertical_step(copter_estimate_t *estimate, const copter_t *copter,
     const float known = force->is_known ? force->acceleration : 0.0f;
 
     step_gps(self, &copter->gps.fix, has_fix, force);
-    compare(self, altitude);
+    compare_heights(self, altitude);
     self->speed += PERIOD_S * ((known - altitude->axis.bias) - (self->speed / SPEED_S));
     self->speed = keel_range_clamp(self->speed, -KEEL_AXIS_VELOCITY_LIMIT,
                                    KEEL_AXIS_VELOCITY_LIMIT);

@@ -12,7 +12,7 @@ typedef struct place {
     float part;
 } place_t;
 
-static int32_t limited(int32_t value, int32_t most)
+static int32_t limit_to(int32_t value, int32_t most)
 {
     if (value > most) {
         return most;
@@ -22,7 +22,7 @@ static int32_t limited(int32_t value, int32_t most)
 
 static place_t place_of(int32_t value, int32_t most, uint32_t steps)
 {
-    const uint32_t from = (uint32_t)((int64_t)limited(value, most) + most);
+    const uint32_t from = (uint32_t)((int64_t)limit_to(value, most) + most);
     const uint32_t step = from / (uint32_t)STEP;
 
     /* The last one has no step behind it. */
@@ -30,7 +30,7 @@ static place_t place_of(int32_t value, int32_t most, uint32_t steps)
                           : (place_t){steps - 1u, 1.0f};
 }
 
-static float between(float first, float then, float part)
+static float interpolate(float first, float then, float part)
 {
     return first + (part * (then - first));
 }
@@ -43,12 +43,12 @@ copter_wmm_field_t copter_wmm_field(int32_t latitude, int32_t longitude)
     float part[3];
 
     for (uint32_t k = 0u; k < 3u; k++) {
-        const float south = between((float)copter_wmm_table[row.step][column.step][k],
+        const float south = interpolate((float)copter_wmm_table[row.step][column.step][k],
                                     (float)copter_wmm_table[row.step][next][k], column.part);
-        const float north = between((float)copter_wmm_table[row.step + 1u][column.step][k],
+        const float north = interpolate((float)copter_wmm_table[row.step + 1u][column.step][k],
                                     (float)copter_wmm_table[row.step + 1u][next][k], column.part);
 
-        part[k] = PER_UNIT * between(south, north, row.part);
+        part[k] = PER_UNIT * interpolate(south, north, row.part);
     }
     return (copter_wmm_field_t){part[0], part[1], part[2]};
 }
