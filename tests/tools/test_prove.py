@@ -31,7 +31,7 @@ from keel.base.files import write_text
 from keel.base.jobs import Finished, Runner, in_pool
 from keel.base.verdict_cache import Cache
 from keel.c import source as csource
-from keel.c.project import ProjectError, Unit, closure, find_units
+from keel.c.project import KEEL, ProjectError, Unit, closure, find_units
 from keel.c.syntax import SyntaxProblem
 from keel.engines import cbmc, wp
 from keel.install import Toolchain, ToolchainError
@@ -599,11 +599,20 @@ ONE = driver.Pool(1)
 class Choices(unittest.TestCase):
     def test_the_kernel_is_the_scheduler_voter_filter_and_pid(self) -> None:
         units = find_units()
-        names = {name for name, unit in units.items() if prove.in_kernel(unit)}
+        names = set(prove.kernel_of(KEEL, units))
         self.assertLessEqual(
             {"clock", "queue", "pass", "scheduler", "range", "voter", "filter", "pid"}, names
         )
         self.assertTrue(names.isdisjoint({"mavlink", "attitude", "mixer", "spread"}))
+
+    def test_a_kernel_of_units_that_are_not_there_is_refused(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(ProjectError, r"kernel\.toml: not there"):
+                prove.kernel_of(Path(folder), {})
+            listed = 'layers = []\nunits = ["voter", "votr"]\n[without]\n'
+            write_text(Path(folder) / "specs" / "kernel.toml", listed)
+            with self.assertRaisesRegex(ProjectError, "no such unit: votr$"):
+                prove.kernel_of(Path(folder), {"voter": find_units()["voter"]})
 
     def test_sizes_are_numbers(self) -> None:
         self.assertEqual(prove.size("KEEL_QUEUE_CAPACITY=8"), "-DKEEL_QUEUE_CAPACITY=8u")

@@ -24,7 +24,8 @@ from __future__ import annotations
 import argparse
 import os
 import re
-from collections.abc import Sequence
+import tomllib
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from keel.base.errors import program
@@ -35,10 +36,8 @@ from keel.prove.proof_run import Choice, Session
 from keel.prove.shards import Shard, read_shard
 
 ENGINES = ("wp", "cbmc", "gappa")
-# The paper's subject: the scheduler, and the units of these names. Spreading first releases is not
-# in it, and would make the first verdict a fifth later.
-KERNEL_LAYER, KERNEL = "rtos", ("range", "voter", "filter", "pid")
-BESIDE_KERNEL = ("spread",)
+# Which units the paper is about.
+KERNEL = "specs/kernel.toml"
 
 
 def shard(text: str) -> Shard:
@@ -144,10 +143,21 @@ def project(arguments: Sequence[str] | None) -> Path:
     return root
 
 
-def in_kernel(unit: Unit) -> bool:
-    """Whether a unit is of what the paper is about."""
-    scheduler = unit.layer == KERNEL_LAYER and unit.name not in BESIDE_KERNEL
-    return scheduler or unit.name in KERNEL
+def kernel_of(root: Path, units: Mapping[str, Unit]) -> list[str]:
+    """The names of the units that the paper is about, as the project's list has them."""
+    path = root / KERNEL
+    if not path.is_file():
+        raise ProjectError(f"{path}: not there, so --kernel chooses nothing")
+    listed = tomllib.loads(path.read_text(encoding="utf-8"))
+    strange = [name for name in (*listed["units"], *listed["without"]) if name not in units]
+    if strange:
+        raise ProjectError(f"{path}: no such unit: {', '.join(strange)}")
+    return [
+        name
+        for name, unit in units.items()
+        if (unit.layer in listed["layers"] or name in listed["units"])
+        and name not in listed["without"]
+    ]
 
 
 def prove(arguments: Sequence[str] | None) -> int:
@@ -155,13 +165,10 @@ def prove(arguments: Sequence[str] | None) -> int:
     root = project(arguments)
     units = find_units(root)
     options = parse(arguments, list(units))
+    names = kernel_of(root, units) if options.kernel else options.unit or list(units)
+    chosen = tuple(one for one in units.values() if one.name in names)
     tools = Toolchain()
     tools.ensure("prove")
-    chosen = tuple(
-        one
-        for one in units.values()
-        if (not options.unit or one.name in options.unit) and (not options.kernel or in_kernel(one))
-    )
     choice = Choice(
         units=chosen,
         partial=len(chosen) < len(units) or bool(options.engine or options.size),
