@@ -233,9 +233,10 @@ static void step_level(copter_accel_calibration_t *self)
     self->trim[0] = atan2f(-down.axis[1], -down.axis[2]);
     self->trim[1] = atan2f(down.axis[0],
                            sqrtf((down.axis[1] * down.axis[1]) + (down.axis[2] * down.axis[2])));
-    finish_levelling(self, ((fabsf(self->trim[0]) <= TRIM_MOST) && (fabsf(self->trim[1]) <= TRIM_MOST))
-                     ? COPTER_LEVELLED_DONE
-                     : COPTER_LEVELLED_BEYOND);
+    finish_levelling(self,
+                     ((fabsf(self->trim[0]) <= TRIM_MOST) && (fabsf(self->trim[1]) <= TRIM_MOST))
+                         ? COPTER_LEVELLED_DONE
+                         : COPTER_LEVELLED_BEYOND);
 }
 
 void copter_accel_calibration_step(copter_accel_calibration_t *self, const copter_t *copter)

@@ -81,7 +81,7 @@ void copter_action_request_follow(copter_action_request_t *request, const keel_m
     const bool has_mode = !machine->motors || (machine->mode == request->asked);
 
     answer_move(&request->arm, machine->motors == request->arms,
-           !linked || (request->arms && !machine->ready), elapsed_us);
+                !linked || (request->arms && !machine->ready), elapsed_us);
     answer_move(&request->mode, is_asked && has_mode, !linked, elapsed_us);
     if (request->arm.answer != COPTER_ANSWER_WAITS) {
         /* No motor starts by a request that is over. */

@@ -132,7 +132,7 @@ static uint32_t begin_levelling(copter_t *copter, copter_levelling_t levelling)
     }
     copter_accel_calibration_ask(&copter->calibration.accelerometers, (uint8_t)levelling);
     say_calibration(self, (levelling == COPTER_LEVELLING_LEVEL) ? "calibration started: 2 level"
-                                                    : "calibration started: 2 accel");
+                                                                : "calibration started: 2 accel");
     self->levelling = (uint8_t)levelling;
     self->sides = 0u;
     self->side = (uint8_t)KEEL_CALIBRATION_SIDES;

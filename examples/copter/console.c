@@ -64,7 +64,8 @@ static uint32_t refusal_line(const char *typed, uint32_t number, char line[COPTE
         length = append_text(line, append_text(line, 0u, "no such command: "), typed);
         length = append_text(line, length, "; there are: ");
         for (uint32_t i = 0u; i < COMMANDS; i++) {
-            length = append_text(line, append_text(line, length, (i == 0u) ? "" : ", "), commands[i].name);
+            length = append_text(line, append_text(line, length, (i == 0u) ? "" : ", "),
+                                 commands[i].name);
         }
         length = append_text(line, length, "\n");
     }

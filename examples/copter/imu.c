@@ -96,7 +96,7 @@ static float filtered(keel_filter_t *filter, float value, bool goes_on)
  * to unit. Filters start anew behind a gap. They rest while the unit does: a unit that repeats
  * itself gave no sample, and the voter is to see it. */
 static void prepare_vote(copter_imu_t *self, uint32_t unit, const copter_calibration_t *calibration,
-                    bool goes_on, keel_virtual_imu_sample_t *sample)
+                         bool goes_on, keel_virtual_imu_sample_t *sample)
 {
     keel_filter_t *const filter = self->filter[unit];
 

@@ -104,13 +104,13 @@ static void take_mission(copter_t *copter, const keel_mavlink_frame_t *frame, ui
     const bool is_known = is_kind(asked.kind, frame->id == MESSAGE_MISSION_CLEAR_ALL);
 
     if (copter_is_meant(link, asked.system, asked.component)) {
-        send_reply(link,
-              (copter_reply_t){
-                  .sent = (uint8_t)((lists && is_known) ? SENT_MISSION_COUNT : SENT_MISSION_ACK),
-                  .system = frame->system,
-                  .component = frame->component,
-                  .kind = asked.kind,
-                  .result = is_known ? asked.result : (uint8_t)MAV_MISSION_UNSUPPORTED});
+        send_reply(link, (copter_reply_t){.sent = (uint8_t)((lists && is_known) ? SENT_MISSION_COUNT
+                                                                                : SENT_MISSION_ACK),
+                                          .system = frame->system,
+                                          .component = frame->component,
+                                          .kind = asked.kind,
+                                          .result = is_known ? asked.result
+                                                             : (uint8_t)MAV_MISSION_UNSUPPORTED});
     }
 }
 
@@ -143,8 +143,9 @@ static void take_log_data(copter_t *copter, const keel_mavlink_frame_t *frame, u
 
     message_log_request_data_unpack(&message, frame->payload);
     if (copter_is_meant(link, message.target_system, message.target_component)) {
-        send_reply(link, (copter_reply_t){
-                        .sent = (uint8_t)SENT_LOG_DATA, .log = message.id, .offset = message.ofs});
+        send_reply(link, (copter_reply_t){.sent = (uint8_t)SENT_LOG_DATA,
+                                          .log = message.id,
+                                          .offset = message.ofs});
     }
 }
 

@@ -44,8 +44,8 @@ static void say_parameter(copter_t *copter, uint32_t severity, uint16_t index, c
 }
 
 /* The request is refused: the sender is to be told. */
-static void refuse_parameter(copter_link_t *link, const keel_mavlink_frame_t *from, const char *name,
-                   int16_t index, uint32_t error)
+static void refuse_parameter(copter_link_t *link, const keel_mavlink_frame_t *from,
+                             const char *name, int16_t index, uint32_t error)
 {
     message_param_error_t *const message = &link->error[link->errors];
 
@@ -88,7 +88,8 @@ static const char *value_of(keel_parameter_type_t type, const message_param_set_
 }
 
 /* Sets a parameter; or says, in words, why not. */
-static const char *set_value(keel_parameters_t *table, uint16_t index, const message_param_set_t *message)
+static const char *set_value(keel_parameters_t *table, uint16_t index,
+                             const message_param_set_t *message)
 {
     keel_parameter_value_t value;
     const char *const reason = value_of(keel_parameters_get(table, index).type, message, &value);
@@ -155,7 +156,8 @@ void copter_mavlink_read_parameter(copter_t *copter, uint32_t link,
     if (index < COPTER_PARAMETER_COUNT) {
         want_parameter(to, index);
     } else {
-        refuse_parameter(to, from, message->param_id, message->param_index, MAV_PARAM_ERROR_DOES_NOT_EXIST);
+        refuse_parameter(to, from, message->param_id, message->param_index,
+                         MAV_PARAM_ERROR_DOES_NOT_EXIST);
     }
 }
 

@@ -28,7 +28,8 @@
 #define NOT_FOUND UINT32_MAX
 
 /* A text for each of what stands in the way. */
-static void tell_reason(copter_telemetry_t *self, const char *what, const keel_mode_refusal_t *refusal)
+static void tell_reason(copter_telemetry_t *self, const char *what,
+                        const keel_mode_refusal_t *refusal)
 {
     for (uint32_t i = 0u; i < COPTER_OBSTACLES; i++) {
         const char *const words = copter_obstacle(refusal, i);
@@ -482,7 +483,8 @@ static void tell_attempt(copter_t *copter)
 
     self->refusals = state->refusals;
     if ((request->arm.answer == COPTER_ANSWER_REFUSED) && request->arms) {
-        tell_reason(self, COPTER_NOT_ARMED, is_tried ? &state->mode.refused : &state->mode.blocking);
+        tell_reason(self, COPTER_NOT_ARMED,
+                    is_tried ? &state->mode.refused : &state->mode.blocking);
     } else if (is_tried) {
         tell_refusal(self, copter_obstacle_first(&state->mode));
     } else {

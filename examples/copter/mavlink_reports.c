@@ -161,17 +161,20 @@ static uint32_t healthy_sensors(const copter_t *copter)
     const keel_mode_t *const mode = &copter->state.mode;
 
     return bit_when((blocking & KEEL_MODE_CHECK_GYROSCOPE) == 0u, MAV_SYS_STATUS_SENSOR_3D_GYRO) |
-           bit_when((blocking & KEEL_MODE_CHECK_ACCELEROMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_ACCEL) |
+           bit_when((blocking & KEEL_MODE_CHECK_ACCELEROMETER) == 0u,
+                    MAV_SYS_STATUS_SENSOR_3D_ACCEL) |
            bit_when((blocking & KEEL_MODE_CHECK_MAGNETOMETER) == 0u, MAV_SYS_STATUS_SENSOR_3D_MAG) |
            bit_when((copter->estimate.altitude.axis.quality == KEEL_AXIS_GOOD) &&
-                    ((blocking & COPTER_CHECK_GROUND_PRESSURE) == 0u),
-                MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) |
-           bit_when(copter->estimate.position.quality == KEEL_AXIS_GOOD, MAV_SYS_STATUS_SENSOR_GPS) |
-           bit_when((mode->settled & KEEL_MODE_RC_LINKED) != 0u, MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
+                        ((blocking & COPTER_CHECK_GROUND_PRESSURE) == 0u),
+                    MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE) |
+           bit_when(copter->estimate.position.quality == KEEL_AXIS_GOOD,
+                    MAV_SYS_STATUS_SENSOR_GPS) |
+           bit_when((mode->settled & KEEL_MODE_RC_LINKED) != 0u,
+                    MAV_SYS_STATUS_SENSOR_RC_RECEIVER) |
            bit_when(copter->power.battery.level == KEEL_BATTERY_OK, MAV_SYS_STATUS_SENSOR_BATTERY) |
            bit_when((mode->seen & KEEL_MODE_FENCE_BREACHED) == 0u, MAV_SYS_STATUS_GEOFENCE) |
            bit_when(mode->motors || ((blocking == 0u) && (mode->blocking.facts == 0u)),
-                MAV_SYS_STATUS_PREARM_CHECK);
+                    MAV_SYS_STATUS_PREARM_CHECK);
 }
 
 static void sys_status(const copter_t *copter, const copter_link_t *link, uint8_t *payload)
@@ -600,10 +603,11 @@ static void estimator_status(const copter_t *copter, uint8_t *payload)
         .pos_horiz_accuracy = copter->gps.fix.accuracy,
         .pos_vert_accuracy = 1.0f,
         .flags = (uint16_t)(bit_when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING,
-                                 ESTIMATOR_ATTITUDE) |
+                                     ESTIMATOR_ATTITUDE) |
                             bit_when(has_place, ESTIMATOR_VELOCITY_HORIZ | ESTIMATOR_POS_HORIZ_REL |
-                                                ESTIMATOR_POS_HORIZ_ABS) |
-                            bit_when(has_height, ESTIMATOR_VELOCITY_VERT | ESTIMATOR_POS_VERT_ABS))};
+                                                    ESTIMATOR_POS_HORIZ_ABS) |
+                            bit_when(has_height,
+                                     ESTIMATOR_VELOCITY_VERT | ESTIMATOR_POS_VERT_ABS))};
 
     message_estimator_status_pack(&message, payload);
 }
@@ -759,7 +763,8 @@ static bool serial_control(const copter_t *copter, copter_link_t *link, uint8_t 
 }
 
 /* Messages that a station shows, or asks for as it connects. */
-static bool fill_for_station(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+static bool fill_for_station(const copter_t *copter, copter_link_t *link, uint32_t sent,
+                             uint8_t *payload)
 {
     bool said = true;
 
@@ -795,7 +800,8 @@ static bool fill_for_station(const copter_t *copter, copter_link_t *link, uint32
     return said;
 }
 
-static bool fill_answer(const copter_t *copter, copter_link_t *link, uint32_t sent, uint8_t *payload)
+static bool fill_answer(const copter_t *copter, copter_link_t *link, uint32_t sent,
+                        uint8_t *payload)
 {
     bool said = true;
 

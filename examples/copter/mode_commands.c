@@ -57,7 +57,8 @@ static uint32_t ask_for(copter_t *copter, const copter_command_t *command, uint8
     if (request->mode.answer == COPTER_ANSWER_WAITS) {
         return (copter_command_is_again(&self->mode_waiter, command) && (mode == request->asked))
                    ? MAV_RESULT_IN_PROGRESS
-                   : refuse_command(copter, MAV_RESULT_TEMPORARILY_REJECTED, "another is being asked for");
+                   : refuse_command(copter, MAV_RESULT_TEMPORARILY_REJECTED,
+                                    "another is being asked for");
     }
     if (!is_safe(mode)) {
         return refuse_command(copter, MAV_RESULT_DENIED, "only by the pilot's switch");
@@ -82,7 +83,8 @@ static uint32_t hold_place(copter_t *copter, const copter_command_t *command)
                       keel_range_contains(sticks->climb_rate, 0.0f, 0.0f);
 
     return rest ? ask_for(copter, command, (uint8_t)KEEL_MODE_POSITION)
-                : refuse_command(copter, MAV_RESULT_TEMPORARILY_REJECTED, "hold: sticks not centred");
+                : refuse_command(copter, MAV_RESULT_TEMPORARILY_REJECTED,
+                                 "hold: sticks not centred");
 }
 
 /* By its number. */

@@ -141,7 +141,7 @@ static void next_line(const struct copter *copter, copter_shell_station_t *stati
 
 /* Of a table at most one line is made: none of them is shorter than a message. */
 static void fill_answer(const struct copter *copter, copter_shell_station_t *station,
-                 message_serial_control_t *message)
+                        message_serial_control_t *message)
 {
     while (has_output(station) && (message->count < DATA)) {
         const uint32_t room = DATA - message->count;

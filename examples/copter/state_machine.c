@@ -73,10 +73,10 @@ static uint32_t facts_of(const copter_t *copter)
            bit_when(has_place && is_home(copter), KEEL_MODE_AT_HOME) |
            bit_when(copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING, KEEL_MODE_ATTITUDE_VALID) |
            bit_when(is_good(estimate->vertical.quality, before, KEEL_MODE_ALTITUDE_VALID),
-                KEEL_MODE_ALTITUDE_VALID) |
+                    KEEL_MODE_ALTITUDE_VALID) |
            bit_when(has_place, KEEL_MODE_POSITION_VALID) |
            bit_when(has_place && has_home(copter) && (side_of(copter) != COPTER_SIDE_NONE),
-                KEEL_MODE_FENCE_BREACHED) |
+                    KEEL_MODE_FENCE_BREACHED) |
            bit_when(level >= KEEL_BATTERY_LOW, KEEL_MODE_BATTERY_CRITICAL) |
            bit_when(level >= KEEL_BATTERY_CRITICAL, KEEL_MODE_BATTERY_EMPTY);
 }
@@ -158,11 +158,12 @@ static uint32_t checks_of(const copter_t *copter)
 
     return copter->health.checks | copter->calibration.checks |
            bit_when(are_confirmed(imu, 0u, KEEL_VIRTUAL_IMU_ACCELEROMETER),
-                KEEL_MODE_CHECK_ACCELEROMETER) |
+                    KEEL_MODE_CHECK_ACCELEROMETER) |
            bit_when(are_confirmed(imu, KEEL_VIRTUAL_IMU_ACCELEROMETER, KEEL_VIRTUAL_IMU_CHANNELS),
-                KEEL_MODE_CHECK_GYROSCOPE) |
+                    KEEL_MODE_CHECK_GYROSCOPE) |
            bit_when(estimate->altitude.axis.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_BAROMETER) |
-           bit_when(estimate->position.quality == KEEL_AXIS_GOOD, KEEL_MODE_CHECK_POSITION_ESTIMATE) |
+           bit_when(estimate->position.quality == KEEL_AXIS_GOOD,
+                    KEEL_MODE_CHECK_POSITION_ESTIMATE) |
            bit_when(copter->imu.down.z >= copter_settings.level, KEEL_MODE_CHECK_LEVEL_ATTITUDE) |
            bit_when(copter->power.battery.level == KEEL_BATTERY_OK, KEEL_MODE_CHECK_BATTERY_LEVEL) |
            bit_when(estimate->position.has_origin, KEEL_MODE_CHECK_HOME_POSITION) |

@@ -44,9 +44,10 @@ copter_wmm_field_t copter_wmm_field(int32_t latitude, int32_t longitude)
 
     for (uint32_t k = 0u; k < 3u; k++) {
         const float south = interpolate((float)copter_wmm_table[row.step][column.step][k],
-                                    (float)copter_wmm_table[row.step][next][k], column.part);
+                                        (float)copter_wmm_table[row.step][next][k], column.part);
         const float north = interpolate((float)copter_wmm_table[row.step + 1u][column.step][k],
-                                    (float)copter_wmm_table[row.step + 1u][next][k], column.part);
+                                        (float)copter_wmm_table[row.step + 1u][next][k],
+                                        column.part);
 
         part[k] = PER_UNIT * interpolate(south, north, row.part);
     }

@@ -261,6 +261,68 @@ def shards() -> tuple[str, ...]:
 # --- Where it is said ----------------------------------------------------------------------------
 
 
+def about(number: int, unit: int) -> str:
+    """A number of lines or files, as rough as it is of use."""
+    return spaced(round(number / unit) * unit)
+
+
+def lines_of(*patterns: str) -> int:
+    """Lines of the Python below these places, of no build's."""
+    places = [path for pattern in patterns for path in ROOT.glob(pattern)]
+    files = {one for place in places for one in ([place] if place.is_file() else tree(place))}
+    return sum(path.read_bytes().count(b"\n") for path in files if path.suffix == ".py")
+
+
+@cache
+def tree(folder: Path) -> tuple[Path, ...]:
+    """The files below a folder, without what is built, fetched or hidden."""
+    found: list[Path] = []
+    for path in folder.iterdir():
+        if path.name in ("build", "__pycache__") or path.name.startswith(".git"):
+            continue
+        found += tree(path) if path.is_dir() and not path.is_symlink() else [path]
+    return tuple(found)
+
+
+def rooms(names: str) -> int:
+    """Lines of some rooms of the tools."""
+    return lines_of(*(f"tools/keel/{name}" for name in names.split()))
+
+
+def sizes() -> tuple[str, ...]:
+    """Lines of Python, of judge and engines, and of the largest room."""
+    largest = max(lines_of(str(room.relative_to(ROOT))) for room in ROOT.glob("tools/keel/*/"))
+    python = lines_of("tools", "tests", "packaging")
+    return about(python, 1000), about(rooms("judge engines"), 100), about(largest, 100)
+
+
+def files() -> tuple[str, ...]:
+    """Files of the project; and of harnesses, and of models."""
+    harnesses = len(list(ROOT.glob("proofs/*/*_harness.c")))
+    models = len(tree(ROOT / "specs" / "model"))
+    return about(len(tree(ROOT)), 100), str(harnesses), str(models)
+
+
+def long_headers() -> tuple[str, ...]:
+    """Public headers above 150 lines."""
+    headers = [text_of(str(path.relative_to(ROOT))) for path in ROOT.glob("include/keel/*/*.h")]
+    return (str(sum(text.count("\n") > 150 for text in headers)),)
+
+
+def parts() -> tuple[str, ...]:
+    """Lines of Python by what it is for."""
+    numbers = (
+        rooms("base install c judge engines prove audit mutate config.py cli"),
+        lines_of("tests/tools"),
+        rooms("boards emulator plants flight logs replay copter"),
+        lines_of("tests/flight", "tests/clients"),
+        rooms("trace qualify gather evidence release"),
+        lines_of("tools/keel/timing", "tools/keel/timeline", "tests/timing"),
+        rooms("test bench lint analyse"),
+    )
+    return tuple(about(number, 1000) for number in numbers)
+
+
 class Figure(NamedTuple):
     """Numbers in a document: a pattern with a group for each, and what they are."""
 
@@ -282,7 +344,30 @@ def of_sensors() -> tuple[str, ...]:
 
 
 TASKS = r"(?:paper's|the|its|767zi:|The) (\d+)\s+tasks(?! with|\.)"
+LINES = r"(\d[\d ]*?)"
 FIGURES: tuple[Figure, ...] = (
+    Figure(
+        "CONTRIBUTING.md",
+        rf"\| lines of Python, with their tests \| 42 000 \| {LINES} \|.*?"
+        rf"\| lines of `judge` and `engines` \| 4200 \| {LINES} \|.*?"
+        rf"\| lines of the largest room \| 5000 \| {LINES} \|",
+        sizes,
+    ),
+    Figure(
+        "CONTRIBUTING.md",
+        rf"\| files \| 1400 \| {LINES} \| Each of the (\d+) harnesses has a file, as each of the "
+        r"(\d+) files of models",
+        files,
+    ),
+    Figure("CONTRIBUTING.md", r"\| public headers above 150 lines \| 0 \| (\d+) \|", long_headers),
+    Figure(
+        "CONTRIBUTING.md",
+        rf"\| proofs: [^|]*\| {LINES} \|.*?\| their tests[^|]*\| {LINES} \|.*?"
+        rf"\| boards and flights: [^|]*\| {LINES} \|.*?\| tests of flights[^|]*\| {LINES} \|.*?"
+        rf"\| evidence: [^|]*\| {LINES} \|.*?\| schedulability[^|]*\| {LINES} \|.*?"
+        rf"\| test runs[^|]*\| {LINES} \|",
+        parts,
+    ),
     Figure("README.md", r"of the (\d+) public functions", functions),
     Figure("README.md", r"queues of (\d+) tasks and (\d+) sensors", both),
     Figure("README.md", r"CI proves (\d+), as if", of_capacity),
