@@ -176,6 +176,9 @@ class Mutants(StrengthTest):
         header = "include/keel/middleware/range.h"
         self.replace(header, "* @brief ", "* @brief In other words: ")
         self.assertEqual(self.told()[1].split("; ")[1], "current\n")
+        # Where no function is, no result names a line.
+        self.replace("include/keel/c_declarations.h", "* @brief ", "*\n * @brief ")
+        self.assertEqual(self.told()[1].split("; ")[1], "current\n")
         self.replace(header, "* @brief ", "*\n * @brief ")
         self.assertIn("STALE: source changed since", self.told()[1])
 

@@ -574,6 +574,17 @@ class Keys(TreeTest):
         changed = self.changed_by("include/keel/rtos/box.h", "BOX_001: *box", "BOX_002: *box")
         self.assertEqual(changed, {"helper", "keel_box_put"})
 
+    def test_a_comment_more_or_less_matters_to_none(self) -> None:
+        for file, code in (
+            ("include/keel/rtos/box.h", "#define"),
+            ("src/rtos/box.c", "#include"),
+            ("proofs/box/keel_box_put_harness.c", "#include"),
+        ):
+            self.assertEqual(self.changed_by(file, code, f"/* Two\n * lines. */\n{code}", 1), set())
+        more = "//@ predicate more(int x) = x > 0;\n#define"
+        changed = self.changed_by("include/keel/rtos/box.h", "#define", more, 1)
+        self.assertEqual(changed, {"helper", "keel_box_put"})
+
     def test_an_included_file_matters_to_all(self) -> None:
         changed = self.changed_by("include/keel/status.h", "/* status */", "#define X 1")
         self.assertEqual(changed, set(self.keys()))

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from keel.base.verdict_cache import digest
 from keel.c import source as csource
+from keel.c.places import read_by_provers
 from keel.c.project import Unit, closure, find_units
 from keel.install import Found
 from keel.judge.goals import read_goals
@@ -48,9 +49,9 @@ def origin(
     """Digests of what a result on a unit depends on, and each tool's version; `judges` are the
     names of the harnesses that killed.
 
-    The sources count with their contracts and the places of their lines, but not with the words of
-    other comments; harnesses and models without any comment. Neither the prover that proved a goal
-    last nor the wrong bodies matter.
+    The sources count with their contracts, but not with the words of other comments; harnesses and
+    models without any comment. Neither the prover that proved a goal last nor the wrong bodies
+    matter.
     """
     root = unit.root
     own = {path.resolve() for path in unit.own_files}
@@ -61,7 +62,7 @@ def origin(
     equivalent = unit.folder / "equivalent.toml"
     return {
         "source": digest(
-            {_shown(path, root): csource.without_prose(texts[path]) for path in source}
+            {_shown(path, root): _counted(texts[path]) for path in source}
         ),
         "proofs": digest(
             {
@@ -77,6 +78,11 @@ def origin(
         ),
         **{name: version_of(tool) for name, tool in tools.items() if name not in NO_JUDGES},
     }
+
+
+def _counted(text: str) -> str:
+    """A source as it counts: the places of lines do where functions are, for results name them."""
+    return csource.without_prose(text) if csource.defined(text) else read_by_provers(text)
 
 
 def version_of(tool: Found) -> str:

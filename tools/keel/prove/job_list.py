@@ -10,6 +10,7 @@ from typing import Any
 
 from keel.base.verdict_cache import digest
 from keel.c import source as csource
+from keel.c.places import read_by_provers
 from keel.c.project import KEEL, ProjectError, Unit, closure, shown
 from keel.engines import cbmc, gappa, wp
 from keel.judge import wp_frames, wp_targets, wp_verdict
@@ -80,7 +81,7 @@ def wp_key(
             "selection": target.selection,
             "allowed": list(allowed),
             "text": {
-                place: csource.without_prose(text)
+                place: read_by_provers(text)
                 for place, text in wp_targets.dependencies(target, root).items()
             },
             "file": target.file.name,
@@ -111,7 +112,7 @@ def survey_jobs(
             def key(file: Path = file) -> str:
                 files = closure(root, [file])
                 text = {
-                    shown(path, root): csource.without_prose(csource.read(path)) for path in files
+                    shown(path, root): read_by_provers(csource.read(path)) for path in files
                 }
                 return digest({"survey": text, "stamp": dict(stamp), "known": sorted(elsewhere)})
 
