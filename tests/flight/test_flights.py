@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -16,11 +17,12 @@ from short_flight import SHORT, short
 
 from keel.base.errors import ROOT
 from keel.flight import command as fly
-from keel.flight import library, loop, montecarlo, varied
+from keel.flight import judge, library, loop, montecarlo, pilot, sensors, varied
 from keel.flight.library import Copter
 from keel.flight.loop import Order
 from keel.install import Toolchain
-from keel.plants import plants
+from keel.install.groups import HASHES
+from keel.plants import jsbsim_plant, mujoco_plant, plants
 
 
 @pytest.mark.parametrize("plant", plants.NAMES)
@@ -93,6 +95,26 @@ def test_a_seed_is_one_flight_and_seeds_differ() -> None:
     assert {flight.plant for flight in flights} == set(plants.NAMES)
     assert len({flight.scenario.description for flight in flights}) > 8
     assert len({flight.airframe.mass for flight in flights}) > 50
+
+
+def test_another_plant_pilot_or_judge_makes_another_flight(tmp_path: Path) -> None:
+    """Kept flights are of the present tools: each file that flies or judges one counts."""
+    for name in (*varied.TOOLS, "pyproject.toml", f"tools/{HASHES.name}"):
+        for path in varied.below(ROOT / name):
+            target = tmp_path / path.relative_to(ROOT)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(path, target)
+    before = varied.digest_of(tmp_path)
+    for module in (jsbsim_plant, mujoco_plant, pilot, judge, sensors, loop, varied):
+        assert module.__file__
+        path = tmp_path / Path(module.__file__).relative_to(ROOT)
+        text = path.read_text(encoding="utf-8")
+        path.write_text(f"{text}\n# Another one.\n", encoding="utf-8")
+        assert varied.digest_of(tmp_path) != before, path
+        path.write_text(text, encoding="utf-8")
+    assert varied.digest_of(tmp_path) == before
+    with pytest.raises(FileNotFoundError):
+        varied.below(tmp_path / "tools" / "flight")
 
 
 def answer(seed: int, digest: str = "d") -> dict[str, Any]:

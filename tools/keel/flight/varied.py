@@ -21,7 +21,7 @@ from keel.plants.plants import Airframe
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
 HEALTHY = "no fault"
-TOOLS = ("tools/flight", "tools/keel/base/plotting.py")
+TOOLS = ("tools/keel/flight", "tools/keel/plants", "tools/keel/base/plotting.py")
 PINS = ("fly", "timing")  # Groups of Python packages.
 
 
@@ -40,8 +40,10 @@ def digest_of(root: Path = ROOT) -> str:
 
 
 def below(path: Path) -> list[Path]:
-    """A file, or the Python files of a folder."""
-    return [path] if path.is_file() else sorted(path.glob("*.py"))
+    """A file, or the Python files of a folder; there is one of the two."""
+    if path.is_file():
+        return [path]
+    return sorted(one for one in path.iterdir() if one.suffix == ".py")
 
 
 class Draw:
