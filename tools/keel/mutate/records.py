@@ -61,9 +61,7 @@ def origin(
     texts = {path: path.read_text(encoding="utf-8") for path in (*source, *apart)}
     equivalent = unit.folder / "equivalent.toml"
     return {
-        "source": digest(
-            {_shown(path, root): _counted(texts[path]) for path in source}
-        ),
+        "source": digest({_shown(path, root): _counted(texts[path]) for path in source}),
         "proofs": digest(
             {
                 "texts": {_shown(path, root): csource.essence(texts[path]) for path in apart},

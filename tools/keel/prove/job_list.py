@@ -111,9 +111,7 @@ def survey_jobs(
 
             def key(file: Path = file) -> str:
                 files = closure(root, [file])
-                text = {
-                    shown(path, root): read_by_provers(csource.read(path)) for path in files
-                }
+                text = {shown(path, root): read_by_provers(csource.read(path)) for path in files}
                 return digest({"survey": text, "stamp": dict(stamp), "known": sorted(elsewhere)})
 
             theorem = f"{file.stem}:" if file in unit.theorems else ""
