@@ -72,9 +72,73 @@ static void VOT_015_a_third_between_them_leaves_no_hull(void)
     }
 }
 
+/* A channel whose a grows by a quarter of the output's magnitude. Nobody is ever latched. */
+static void begin_growing(float initial)
+{
+    const keel_voter_config_t config = {.agree = 1.0f,
+                                        .cutoff = 3.0f,
+                                        .slope = 0.25f,
+                                        .lowest = -1000.0f,
+                                        .highest = 1000.0f,
+                                        .initial = initial,
+                                        .max_age_us = 1000u,
+                                        .latch_count = 65535u,
+                                        .sensors = 3u};
+
+    TEST_ASSERT_EQUAL(KEEL_OK, keel_voter_init(&voter, &config));
+}
+
+/* The next vote on two samples of 10 and a third where it takes the output farthest. Its output
+ * before is what a grows with. */
+static void vote_worst(void)
+{
+    const keel_voter_t before = voter;
+    keel_voter_t worst = voter;
+
+    for (int32_t i = -128; i <= 4096; i++) {
+        const keel_voter_sample_t sample[3] = {
+            {10.0f, 0u, true}, {10.0f, 0u, true}, {10.0f + ((float)i / 64.0f), 0u, true}};
+
+        voter = before;
+        keel_voter_scale(&voter);
+        keel_voter_step(&voter, sample, 10u);
+        if ((i == -128) || (voter.vote.output > worst.vote.output)) {
+            worst = voter;
+        }
+    }
+    voter = worst;
+}
+
+/* By hand: c = 1/2, slope = 1/4, H = 10, agree = 1, so B = (10 + 1/2)/(1 - 1/8) = 12. There a is 4,
+ * and a third at 18 takes the output 2 beyond 10: B is reached. */
+static void VOT_023_a_third_opens_the_thresholds_to_a_bound_and_no_farther(void)
+{
+    begin_growing(0.0f);
+    for (int32_t i = 0; i < 100; i++) {
+        vote_worst();
+        TEST_ASSERT_TRUE(voter.vote.output <= 12.0001f);
+    }
+    TEST_ASSERT_TRUE(voter.vote.output >= 11.99f);
+}
+
+static void VOT_023_an_output_beyond_the_bound_comes_nearer_by_the_factor(void)
+{
+    float beyond = 512.0f - 12.0f;
+
+    begin_growing(512.0f);
+    for (int32_t i = 0; i < 5; i++) {
+        vote_worst();
+        TEST_ASSERT_TRUE((voter.vote.output - 12.0f) <= ((beyond / 8.0f) + 0.0002f));
+        beyond = voter.vote.output - 12.0f;
+    }
+    TEST_ASSERT_TRUE(beyond < 0.02f);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(VOT_023_a_third_opens_the_thresholds_to_a_bound_and_no_farther);
+    RUN_TEST(VOT_023_an_output_beyond_the_bound_comes_nearer_by_the_factor);
     RUN_TEST(VOT_015_bounded_while_the_healthy_two_are_within_a);
     RUN_TEST(VOT_015_not_bounded_when_they_are_farther_apart);
     RUN_TEST(VOT_015_a_third_between_them_leaves_no_hull);
