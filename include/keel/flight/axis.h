@@ -31,10 +31,6 @@
  *
  * So a fix that jumps, that is not usable or that does not come lowers the quality in the very step
  * in which it is seen, and settle_fixes good ones in a row raise it again.
- *
- * Single precision: far from 0, a position moves in steps of its last place, 2^-11 m at half of
- * KEEL_AXIS_POSITION_LIMIT. No division and no library call in a step. Sources must be compiled
- * without contraction of products and sums, as all builds of Keel do.
  */
 #ifndef KEEL_FLIGHT_AXIS_H
 #define KEEL_FLIGHT_AXIS_H
@@ -47,8 +43,7 @@
 
 KEEL_C_BEGIN
 
-/** Steps per second. */
-#define KEEL_AXIS_RATE_MIN_HZ 10.0f
+#define KEEL_AXIS_RATE_MIN_HZ 10.0f /**< Steps per second, at least and at most. */
 #define KEEL_AXIS_RATE_MAX_HZ 1000.0f
 
 /** The greatest gains: of what is off, in itself; in 1/s; in 1/s^2. */

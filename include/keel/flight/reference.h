@@ -25,17 +25,7 @@
  * square of the sticks becomes nearly a disc (to 1.1 %), whose radius is the limit. So the angle
  * between the aircraft's vertical axis and the true one, and the horizontal speed, are limited in
  * total, without a square root or a trigonometric function (requirement REF-010).
- *
- * For every configuration that is taken and every bit pattern of the sticks, a set-point is within
- * its limit; exactly 0, and that +0, within the dead band, and only there; odd in its stick bit for
- * bit (up to the sign of 0, and for the climb rate up to its two limits); monotone in its stick as
- * floats; exactly the limit at the stick's end. This is proved of each operation, as rounded, and
- * put together by hand (specs/soundness.md); that a step computes these operations, bit for bit, is
- * proved. Sticks that are not finite or beyond 1 are refused with KEEL_ERR_INPUT, all four: every
- * set-point stays what it was.
- *
- * No division and no library call in a step. Single precision throughout. Sources must be compiled
- * without contraction of products and sums, as all builds of Keel do.
+ * Single precision. Sources must be compiled without contraction of products and sums.
  */
 #ifndef KEEL_FLIGHT_REFERENCE_H
 #define KEEL_FLIGHT_REFERENCE_H
@@ -50,11 +40,9 @@ KEEL_C_BEGIN
 #define KEEL_REFERENCE_DEAD_BAND_MIN 0.000244140625f
 #define KEEL_REFERENCE_DEAD_BAND_MAX 0.5f
 
-/** The greatest expo: only the cubic, flat at the centre. More would not be monotone. */
-#define KEEL_REFERENCE_EXPO_MAX 1.0f
+#define KEEL_REFERENCE_EXPO_MAX 1.0f /**< Only the cubic. More would not be monotone. */
 
-/** The least of each limit, in its own unit: 2^-10. */
-#define KEEL_REFERENCE_LIMIT_MIN 0.0009765625f
+#define KEEL_REFERENCE_LIMIT_MIN 0.0009765625f /**< Of each limit, in its own unit: 2^-10. */
 
 /** The greatest limits: of a rate, in rad/s (3667 degrees per second); of the tilt, in rad (just
  * below a right angle); of a climb rate or speed, in m/s. */
@@ -62,8 +50,7 @@ KEEL_C_BEGIN
 #define KEEL_REFERENCE_TILT_MAX  1.5f
 #define KEEL_REFERENCE_SPEED_MAX 100.0f
 
-/** k, 1 - 1/sqrt(2) rounded up, so that a corner is not beyond the disc. */
-#define KEEL_REFERENCE_CORNER 0.292893230915069580078125f
+#define KEEL_REFERENCE_CORNER 0.292893230915069580078125f /**< k, rounded up. */
 
 /** Compensates for the rounding of 1 / (1 - d): 1 + 2^-22. So the end of the stick is reached,
  * some 2^-22 before it is. */

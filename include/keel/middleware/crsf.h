@@ -12,20 +12,10 @@
  * newer senders have, what is known is taken. Frames of other types, and those that are too short,
  * are counted and skipped.
  *
- * Gaps and headers show where a frame begins. A byte that comes late begins a frame; and what
- * can be no frame, by its length or its CRC, is searched for the next byte that may be a header. So
- * - a right frame that begins after a gap, or with nothing held, is taken by its last byte,
- *   whatever was before, when no gap is within it;
- * - without any gap, a right frame is taken by the 126th byte behind its first at the latest,
- *   whatever was before, unless some of its bytes were taken as another frame, whose CRC was right.
- *   A gap before then drops it, so that nothing old delays the frame behind the gap.
- *
  * A receiver that loses the radio stops sending channels, or goes on with those that it was set to
  * send then; its statistics say a link quality of 0. keel_crsf_is_lost tells both.
- *
- * Channels are scaled as SBUS's are: keel_sbus_us gives the length of a pulse.
- *
- * All is integer arithmetic. All counts and times stay at UINT32_MAX.
+ * Channels are scaled as SBUS's are: keel_sbus_us gives the length of a pulse. All counts and times
+ * stay at UINT32_MAX.
  */
 #ifndef KEEL_MIDDLEWARE_CRSF_H
 #define KEEL_MIDDLEWARE_CRSF_H
@@ -40,8 +30,7 @@
 
 KEEL_C_BEGIN
 
-/** Channels of 11 bits. */
-#define KEEL_CRSF_CHANNELS 16
+#define KEEL_CRSF_CHANNELS 16 /**< Of 11 bits each. */
 
 /** The first byte of a frame: on a serial port, to all, and the addresses of a receiver and of a
  *  transmitter's module. A pilot's radio sends the last to its module. Other devices' addresses are
@@ -51,9 +40,8 @@ KEEL_C_BEGIN
 #define KEEL_CRSF_HEADER_RECEIVER 0xEC
 #define KEEL_CRSF_HEADER_MODULE   0xEE
 
-/** The shortest length, of a type and a CRC, and the longest. */
-#define KEEL_CRSF_LENGTH_MIN 2
-#define KEEL_CRSF_LENGTH_MAX 62
+#define KEEL_CRSF_LENGTH_MIN 2  /**< The shortest length, of a type and a CRC. */
+#define KEEL_CRSF_LENGTH_MAX 62 /**< The longest. */
 
 /** A frame with channels: its type and its least length. */
 #define KEEL_CRSF_TYPE_CHANNELS   0x16

@@ -9,12 +9,6 @@
  * link), or of a new stream and more than a minute behind our time. Without a key all frames are
  * taken, signed or not, as nothing can be checked.
  *
- * Only keel_signing_set_key sets the key: whoever calls that does so for somebody at the
- * vehicle (a local console), never for a message from a link.
- *
- * A frame moves a stream's time, and ours, only after its signature was found right: otherwise
- * whoever made one up could make the real sender's look old.
- *
  * Our time is that of the last frame that was signed or accepted. It never goes back, so that no
  * two of our frames bear the same time. Across restarts that is the caller's part: store
  * signing.timestamp now and then, as often as the minute allows, and give keel_signing_advance what
@@ -37,23 +31,17 @@
 
 KEEL_C_BEGIN
 
-/** Bytes of a key. */
-#define KEEL_SIGNING_KEY_BYTES 32
+#define KEEL_SIGNING_KEY_BYTES 32 /**< Bytes of a key. */
 
-/** Bytes of a hash. */
-#define KEEL_SIGNING_DIGEST_BYTES 32
+#define KEEL_SIGNING_DIGEST_BYTES 32 /**< Bytes of a hash. */
 
-/** The most streams at a time. */
-#define KEEL_SIGNING_STREAMS 8
+#define KEEL_SIGNING_STREAMS 8 /**< The most streams at a time. */
 
-/** A minute, in 10 us: as much a new stream may be behind our time. */
-#define KEEL_SIGNING_MINUTE 6000000u
+#define KEEL_SIGNING_MINUTE 6000000u /**< In 10 us. A new stream may be so much behind our time. */
 
-/** The last time there is: it has 48 bits, which end in the year 2104. */
-#define KEEL_SIGNING_TIME_MAX 0xFFFFFFFFFFFFu
+#define KEEL_SIGNING_TIME_MAX 0xFFFFFFFFFFFFu /**< The last time: 48 bits end in the year 2104. */
 
-/** Bytes that are hashed, at most: the key, and a frame without its last bytes, 32 + 280 - 6. */
-#define KEEL_SIGNING_TEXT_MAX 306
+#define KEEL_SIGNING_TEXT_MAX 306 /**< Bytes that are hashed: 32 + 280 - 6, key and frame. */
 
 /**
  * The SHA256 of some bytes (FIPS 180-4). It writes nothing but the digest.

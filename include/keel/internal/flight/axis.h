@@ -2,6 +2,10 @@
 /**
  * @file internal/flight/axis.h
  * @brief The contracts of axis.h, as the provers read them.
+ *
+ * Single precision: far from 0, a position moves in steps of its last place, 2^-11 m at half of
+ * KEEL_AXIS_POSITION_LIMIT. No division and no library call in a step. Sources must be compiled
+ * without contraction of products and sums, as all builds of Keel do.
  */
 #ifndef KEEL_INTERNAL_FLIGHT_AXIS_H
 #define KEEL_INTERNAL_FLIGHT_AXIS_H

@@ -2,6 +2,14 @@
 /**
  * @file internal/flight/reference.h
  * @brief The contracts of reference.h, as the provers read them.
+ *
+ * For every configuration that is taken and every bit pattern of the sticks, a set-point is within
+ * its limit; exactly 0, and that +0, within the dead band, and only there; odd in its stick bit for
+ * bit (up to the sign of 0, and for the climb rate up to its two limits); monotone in its stick as
+ * floats; exactly the limit at the stick's end. This is proved of each operation, as rounded, and
+ * put together by hand (specs/soundness.md); that a step computes these operations, bit for bit, is
+ * proved. Sticks that are not finite or beyond 1 are refused with KEEL_ERR_INPUT, all four: every
+ * set-point stays what it was.
  */
 #ifndef KEEL_INTERNAL_FLIGHT_REFERENCE_H
 #define KEEL_INTERNAL_FLIGHT_REFERENCE_H

@@ -2,6 +2,14 @@
 /**
  * @file internal/middleware/crsf.h
  * @brief The contracts of crsf.h, as the provers read them.
+ *
+ * Gaps and headers show where a frame begins. A byte that comes late begins a frame; and what
+ * can be no frame, by its length or its CRC, is searched for the next byte that may be a header. So
+ * - a right frame that begins after a gap, or with nothing held, is taken by its last byte,
+ *   whatever was before, when no gap is within it;
+ * - without any gap, a right frame is taken by the 126th byte behind its first at the latest,
+ *   whatever was before, unless some of its bytes were taken as another frame, whose CRC was right.
+ *   A gap before then drops it, so that nothing old delays the frame behind the gap.
  */
 #ifndef KEEL_INTERNAL_MIDDLEWARE_CRSF_H
 #define KEEL_INTERNAL_MIDDLEWARE_CRSF_H

@@ -2,6 +2,9 @@
 /**
  * @file internal/middleware/signing.h
  * @brief The contracts of signing.h, as the provers read them.
+ *
+ * A frame moves a stream's time, and ours, only after its signature was found right: otherwise
+ * whoever made one up could make the real sender's look old.
  */
 #ifndef KEEL_INTERNAL_MIDDLEWARE_SIGNING_H
 #define KEEL_INTERNAL_MIDDLEWARE_SIGNING_H
