@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Refuses texts of C that readers, provers and the build's compiler may take for different things.
 
-In all that is proved, and in the proofs: line splices outside of directives, trigraphs, digraphs,
-control characters, pragmas, #line, and headers that only the preprocessor could name. In what is
+In all that is proved, and in the proofs: line splices outside of directives, directives that go on
+into an empty line or behind a comment of several lines, trigraphs, digraphs, control characters,
+pragmas, #line, and headers that only the preprocessor could name. In what is
 built, besides: conditionals but for those below, and names that a compiler may have defined by
 itself. In harnesses: every conditional, as what stands in one may not be there.
 
@@ -77,6 +78,25 @@ def everywhere(text: str) -> Iterator[Finding]:
             yield number, "##: what it pastes together is in no text"
         if "_Pragma" in line:
             yield number, "_Pragma"
+    yield from unclear_ends(text)
+
+
+def unclear_ends(text: str) -> Iterator[Finding]:
+    """Directives whose end is in no key of a verdict: keys have no comments and no empty lines."""
+    bare = csource.without_comments(text)
+    lines = text.split("\n")
+    within: set[int] = set()  # The lines of directives, as splices make them.
+    for number, (line, code) in enumerate(zip(lines, bare.split("\n"), strict=True), 1):
+        goes_on = number - 1 in within and SPLICE.search(lines[number - 2]) is not None
+        if goes_on or DIRECTIVE.match(line):
+            within.add(number)
+        if goes_on and not code.strip():
+            yield number, "a directive that goes on into an empty line"
+    for comment in csource.TOKEN.finditer(text):
+        first, last = (text.count("\n", 0, at) + 1 for at in (comment.start(), comment.end()))
+        behind = bare[comment.end() :].partition("\n")[0]
+        if comment["comment"] and first in within and first < last and behind.strip():
+            yield last, "code behind a comment that began in a directive"
 
 
 def _is_control(one: str) -> bool:

@@ -167,6 +167,18 @@ HIDDEN = (
         "// A comment. ??/\n    x++;",
         "trigraph",
     ),
+    (
+        "a directive that goes on into an empty line, which no key of a verdict has",
+        "static inline",
+        "#define KEEL_BOX_MORE 1u \\\n\nstatic inline",
+        "goes on into an empty line",
+    ),
+    (
+        "code that a comment takes into a directive",
+        "static inline",
+        "#define KEEL_BOX_MORE /* More\n*/ static\nstatic inline",
+        "behind a comment that began in a directive",
+    ),
     ("a text that is shown in another order", "A comment.", "A \u202e comment.", "U+202E"),
     ("assertions that a build may leave out", "<stdint.h>", "<assert.h>", "assert.h"),
 )
