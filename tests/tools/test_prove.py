@@ -624,6 +624,9 @@ class Choices(unittest.TestCase):
             write_text(Path(folder) / "specs" / "kernel.toml", listed)
             with self.assertRaisesRegex(ProjectError, "no such unit: votr$"):
                 prove.kernel_of(Path(folder), {"voter": find_units()["voter"]})
+            write_text(Path(folder) / "specs" / "kernel.toml", "layers = []\nunits =\n")
+            with self.assertRaisesRegex(ProjectError, r"kernel\.toml: .*line 2"):
+                prove.kernel_of(Path(folder), {})
 
     def test_sizes_are_numbers(self) -> None:
         self.assertEqual(prove.size("KEEL_QUEUE_CAPACITY=8"), "-DKEEL_QUEUE_CAPACITY=8u")

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -57,20 +57,20 @@ class Conditional:
 
 def everywhere(text: str) -> Iterator[Finding]:
     """What no text may have."""
-    inside = False  # A directive that goes on.
-    for number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
+    text = text.replace("\r\n", "\n")
+    lines = text.split("\n")
+    bare = csource.without_comments(text)
+    starts = directives(lines)
+    for number, line in enumerate(lines, 1):
         if hidden := [one for one in line if one not in WHITE and _is_control(one)]:
             yield number, f"the control character U+{ord(hidden[0]):04X}"
         if TRIGRAPH.search(line):
             yield number, "a trigraph"
-        directive = DIRECTIVE.match(line)
-        starts = directive is not None and not inside
-        if SPLICE.search(line) and not (starts or inside):
+        if SPLICE.search(line) and number not in starts:
             yield number, "a line that goes on outside of a directive"
-        if directive and starts and directive[1] not in PLAIN:
+        directive = DIRECTIVE.match(line) if starts.get(number) == number else None
+        if directive and directive[1] not in PLAIN:
             yield number, f"#{directive[1]}"
-        inside = (starts or inside) and SPLICE.search(line) is not None
-    bare = csource.without_comments(text)
     for number, line in enumerate(bare.split("\n"), 1):
         if DIGRAPH.search(line):
             yield number, "a digraph"
@@ -78,25 +78,25 @@ def everywhere(text: str) -> Iterator[Finding]:
             yield number, "##: what it pastes together is in no text"
         if "_Pragma" in line:
             yield number, "_Pragma"
-    yield from unclear_ends(text)
-
-
-def unclear_ends(text: str) -> Iterator[Finding]:
-    """Directives whose end is in no key of a verdict: keys have no comments and no empty lines."""
-    bare = csource.without_comments(text)
-    lines = text.split("\n")
-    within: set[int] = set()  # The lines of directives, as splices make them.
-    for number, (line, code) in enumerate(zip(lines, bare.split("\n"), strict=True), 1):
-        goes_on = number - 1 in within and SPLICE.search(lines[number - 2]) is not None
-        if goes_on or DIRECTIVE.match(line):
-            within.add(number)
-        if goes_on and not code.strip():
+        # Keys of verdicts have no comments and no empty lines, so neither may end a directive.
+        if starts.get(number, number) != number and not line.strip():
             yield number, "a directive that goes on into an empty line"
     for comment in csource.TOKEN.finditer(text):
-        first, last = (text.count("\n", 0, at) + 1 for at in (comment.start(), comment.end()))
-        behind = bare[comment.end() :].partition("\n")[0]
-        if comment["comment"] and first in within and first < last and behind.strip():
-            yield last, "code behind a comment that began in a directive"
+        if "\n" in (comment["comment"] or ""):
+            first, last = (text.count("\n", 0, at) + 1 for at in comment.span())
+            if first in starts and bare[comment.end() :].partition("\n")[0].strip():
+                yield last, "code behind a comment that began in a directive"
+
+
+def directives(lines: Sequence[str]) -> dict[int, int]:
+    """The numbers of the lines that are of a directive, each with that of its first line."""
+    starts: dict[int, int] = {}
+    for number, line in enumerate(lines, 1):
+        if number - 1 in starts and SPLICE.search(lines[number - 2]):
+            starts[number] = starts[number - 1]
+        elif DIRECTIVE.match(line):
+            starts[number] = number
+    return starts
 
 
 def _is_control(one: str) -> bool:

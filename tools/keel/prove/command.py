@@ -148,15 +148,17 @@ def kernel_of(root: Path, units: Mapping[str, Unit]) -> list[str]:
     path = root / KERNEL
     if not path.is_file():
         raise ProjectError(f"{path}: not there, so --kernel chooses nothing")
-    listed = tomllib.loads(path.read_text(encoding="utf-8"))
-    strange = [name for name in (*listed["units"], *listed["without"]) if name not in units]
-    if strange:
+    try:
+        listed = tomllib.loads(path.read_text(encoding="utf-8"))
+        layers, more, without = listed["layers"], listed["units"], listed["without"]
+    except (tomllib.TOMLDecodeError, KeyError) as error:
+        raise ProjectError(f"{path}: {error}") from error
+    if strange := [name for name in (*more, *without) if name not in units]:
         raise ProjectError(f"{path}: no such unit: {', '.join(strange)}")
     return [
         name
         for name, unit in units.items()
-        if (unit.layer in listed["layers"] or name in listed["units"])
-        and name not in listed["without"]
+        if (unit.layer in layers or name in more) and name not in without
     ]
 
 
