@@ -45,13 +45,13 @@ static bool sticks_thrust(const copter_t *copter)
 }
 
 /* The mode whose axes are flown. On the ground none leans against the wind, and before it is left
- * none runs; a landing holds its place where it is known. */
+ * or where it carries the aircraft none runs; a landing holds its place where it is known. */
 static uint8_t mode_of_axes(const copter_t *copter)
 {
     const keel_mode_t *const machine = &copter->state.mode;
     uint8_t mode = machine->mode;
 
-    if (machine->state == KEEL_MODE_ARMED) {
+    if ((machine->state == KEEL_MODE_ARMED) || copter->estimate.rests) {
         return KEEL_MODE_NONE;
     }
     if ((mode == KEEL_MODE_LAND) && ((machine->settled & KEEL_MODE_POSITION_VALID) != 0u)) {

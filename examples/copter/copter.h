@@ -285,6 +285,7 @@ typedef struct copter_vertical {
     float hover;       /**< The thrust that hovers, as learnt in flight, 0 to 1. */
     uint32_t lying;    /**< Steps in a row in which it lay on its side. */
     uint32_t touching; /**< Steps in a row in which it did not sink, but was to. */
+    uint32_t resting;  /**< Steps in a row in which it touched, and the motors pushed little. */
     keel_axis_quality_t quality; /**< Of the height that is told. */
     uint8_t source;              /**< Of the height that is told: copter_height_t. */
     bool has_zero;
@@ -311,6 +312,7 @@ typedef struct copter_estimate {
     uint32_t fields;                /**< How often an origin was set. */
     bool is_landed;                 /**< Nothing moves, and the motors hardly push. */
     bool touches;                   /**< It is to sink and does not: it may have landed. */
+    bool rests;                     /**< It touches, and the motors do not carry it. */
 } copter_estimate_t;
 
 /** Written by position control, angle control and angle rate control. */

@@ -67,7 +67,8 @@ typedef struct copter_settings {
                                   half of the greatest, or an MS5607 may be taken for an MS5611. */
     float ground_most;       /**< The greatest pressure with which it may be armed, in Pa. */
     float landed_rate;       /**< Less than this on the ground, in rad/s. */
-    float landed_force;      /**< Less than this on the ground, forwards and sideways, in m/s^2. */
+    float
+        landed_acceleration; /**< Less than this on the ground, forwards and sideways, in m/s^2. */
     float landed_speed;      /**< Less than this on the ground, up or down, in m/s. */
     float home_radius;       /**< Within this of home, to either side, it is there, in m. */
     float return_height;     /**< At least so high on the way home, in m. */

@@ -21,6 +21,7 @@
 #define SUPPORT_MOST  11.6f
 #define CRASH_STEPS   100u /* Of navigation: 2 s. */
 #define TOUCH_STEPS   25u  /* Of navigation: 0.5 s. */
+#define REST_STEPS    15u  /* Of navigation: 0.3 s. */
 
 keel_status_t copter_vertical_init(copter_vertical_t *vertical)
 {
@@ -140,13 +141,22 @@ static keel_attitude_vector_t last_force(const copter_imu_t *imu)
     return imu->force[(imu->blocks - 1u) % COPTER_BLOCKS].mean;
 }
 
+/* Whether its speed stays as it is. On a slope the ground pushes sideways, too: what is left of the
+ * force without gravity counts. */
+static bool accelerates_little(const copter_t *copter)
+{
+    const keel_attitude_vector_t force = last_force(&copter->imu);
+    const keel_attitude_vector_t down = copter->imu.down;
+    const float most = copter_settings.landed_acceleration;
+
+    return is_within(force.x + (KEEL_CASCADE_GRAVITY * down.x), most) &&
+           is_within(force.y + (KEEL_CASCADE_GRAVITY * down.y), most);
+}
+
 /* Whether the aircraft neither turns, nor rises or sinks, nor slides to a stop. */
 static bool is_calm(const copter_t *copter)
 {
-    const keel_attitude_vector_t force = last_force(&copter->imu);
-
-    return turns_little(copter) && is_within(force.x, copter_settings.landed_force) &&
-           is_within(force.y, copter_settings.landed_force) &&
+    return turns_little(copter) && accelerates_little(copter) &&
            is_within(copter->estimate.here.velocity.up, copter_settings.landed_speed);
 }
 
@@ -161,15 +171,21 @@ static bool is_let_down(const copter_t *copter)
            (copter->control.asked.up <= SINKS);
 }
 
+static bool pushes_little(const copter_t *copter)
+{
+    const float hover = copter->estimate.vertical.hover;
+
+    return copter->control.cascade.command.thrust < (LANDED_SHARE * hover);
+}
+
 /* It has landed when a descent is asked for and does not happen, though the motors push less than
  * its weight. From then on it stands until it moves or the motors push. */
 static bool is_landed(const copter_t *copter)
 {
     const copter_estimate_t *const estimate = &copter->estimate;
-    const float most = LANDED_SHARE * estimate->vertical.hover;
 
     return !copter->state.mode.motors || estimate->vertical.is_crashed ||
-           (is_calm(copter) && (copter->control.cascade.command.thrust < most) &&
+           (is_calm(copter) && pushes_little(copter) &&
             (estimate->is_landed || is_let_down(copter)));
 }
 
@@ -187,6 +203,21 @@ static void heed_touch(copter_estimate_t *estimate, const copter_t *copter)
         self->touching = 0u;
     }
     estimate->touches = self->touching == TOUCH_STEPS;
+}
+
+/* It touches, and the motors push less than its weight: the ground carries it. On a slope it would
+ * balance on two legs, as controllers that want it level raise the thrust. They let go, and it
+ * stands as the ground does. One that falls all the same no longer touches. */
+static void heed_rest(copter_estimate_t *estimate, const copter_t *copter)
+{
+    copter_vertical_t *const self = &estimate->vertical;
+
+    if (estimate->touches && pushes_little(copter)) {
+        self->resting += (self->resting < REST_STEPS) ? 1u : 0u;
+    } else {
+        self->resting = 0u;
+    }
+    estimate->rests = self->resting == REST_STEPS;
 }
 
 /* Something carries it, and that is not the motors: it lies still, and on its side or its back. */
@@ -237,6 +268,7 @@ void copter_vertical_conclude(copter_estimate_t *estimate, const copter_t *copte
 
     heed_crash(self, copter);
     heed_touch(estimate, copter);
+    heed_rest(estimate, copter);
     estimate->is_landed = is_landed(copter);
     if (estimate->is_landed) {
         self->is_up = false;

@@ -96,9 +96,7 @@ def flown(copter: Copter, folder: Path, monkeypatch: pytest.MonkeyPatch, at_ms: 
     """The flight of HOVERS, hit then."""
     (folder / "hovers.toml").write_text(HOVERS)
     make = plants.make
-    monkeypatch.setattr(
-        plants, "make", lambda name, airframe, heading: Tipped(make(name, airframe, heading), at_ms)
-    )
+    monkeypatch.setattr(plants, "make", lambda *words: Tipped(make(*words), at_ms))
     order = Order(scenario.read("hovers", folder), "mujoco", 1)
     return loop.fly(copter, order)
 

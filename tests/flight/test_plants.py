@@ -8,8 +8,9 @@ from collections.abc import Sequence
 
 import pytest
 
+from keel.base.errors import ToolError
 from keel.plants import plants
-from keel.plants.plants import Airframe, Plant, Truth
+from keel.plants.plants import Airframe, Ground, Plant, Truth
 
 HOVER = 0.41
 BOTH = pytest.mark.parametrize("name", plants.NAMES)
@@ -108,3 +109,63 @@ def test_a_heavier_one_climbs_less(name: str) -> None:
 def test_equal_flights_are_equal(name: str) -> None:
     ends = [run(made(name), [0.45, 0.46, 0.44, 0.45], 700) for _ in range(2)]
     assert ends[0] == ends[1]
+
+
+@BOTH
+def test_a_mass_in_front_puts_the_nose_down_and_one_on_the_right_that_side(name: str) -> None:
+    """Thrust acts behind it, or to its left: at 13.7 N, 1 cm is 0.14 N m, 7.2 rad/s^2 of pitch."""
+    made_ones = [made(name, 0.0, Airframe(forward_m=0.01)), made(name, 0.0, Airframe(right_m=0.01))]
+    for plant in made_ones:
+        run(plant, [1.2 * HOVER] * 4, 250)
+    ahead, right = (plant.inertial()[3:] for plant in made_ones)
+    assert ahead[1] < -0.2 and abs(ahead[0]) < 0.1 * abs(ahead[1])
+    assert right[0] > 0.2 and abs(right[1]) < 0.2 * right[0]
+
+
+@pytest.mark.parametrize(("heading_deg", "pitch", "roll"), [(60.0, -1, 0), (150.0, 0, -1)])
+def test_on_a_slope_it_stands_as_the_slope_does(heading_deg: float, pitch: int, roll: int) -> None:
+    """Nose downhill it looks down; with the hill on its right its left wing is low: a force along
+    the body of g sin 10 degrees."""
+    ground = Ground(slope_deg=10.0, towards_deg=60.0)
+    plant = plants.make("mujoco", Airframe(), heading_deg, ground)
+    truth = run(plant, [0.0] * 4, 500)
+    steep = math.radians(10.0)
+    assert truth.angles[1] == pytest.approx(pitch * steep, abs=0.01)
+    assert truth.angles[0] == pytest.approx(roll * steep, abs=0.01)
+    x, y, z = plant.inertial()[:3]
+    assert x == pytest.approx(pitch * 9.81 * math.sin(steep), abs=0.05)
+    assert y == pytest.approx(-roll * 9.81 * math.sin(steep), abs=0.05)
+    assert z == pytest.approx(-9.81 * math.cos(steep), abs=0.05)
+    assert truth.place[2] - truth.ground == pytest.approx(0.0, abs=0.01)
+
+
+def test_the_ground_lies_lower_where_it_falls_to() -> None:
+    ground = Ground(slope_deg=10.0, towards_deg=0.0)
+    plant = plants.make("mujoco", Airframe(), 0.0, ground)
+    truth = run(plant, [1.2 * HOVER] * 4, 2000)  # Its thrust leans downhill, to the north.
+    north = truth.place[0]
+    assert north > 0.3
+    # As it stands on it: legs of 0.1524 m are across the slope.
+    stands = -north * math.tan(math.radians(10.0))
+    assert truth.ground == pytest.approx(stands + 0.1524 * 0.0154, abs=0.05)
+
+
+def test_a_deck_carries_it_up_and_down_and_rolls_it_and_ends_level() -> None:
+    deck = Ground(heave_m=0.3, roll_deg=4.0, period_s=4.0, from_s=1.0, until_s=13.0)
+    plant = plants.make("mujoco", Airframe(), 90.0, deck)  # Nose east, the deck rolls northward.
+    heights, rolls = [], []
+    for _ in range(15_000):
+        plant.step([0.0] * 4)
+        truth = plant.truth()
+        heights.append(truth.place[2])
+        rolls.append(math.degrees(truth.angles[0]))
+        assert abs(truth.place[2] - truth.ground) < 0.03
+    assert max(map(abs, heights[:1000])) < 0.01
+    assert max(heights) == pytest.approx(0.3, abs=0.05) == -min(heights)
+    assert max(map(abs, rolls)) == pytest.approx(4.0, abs=0.5)
+    assert max(map(abs, heights[-500:])) < 0.01 and max(map(abs, rolls[-500:])) < 0.3
+
+
+def test_jsbsim_has_no_slope() -> None:
+    with pytest.raises(ToolError, match="level ground only"):
+        plants.make("jsbsim", Airframe(), 0.0, Ground(slope_deg=5.0))

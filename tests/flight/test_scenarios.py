@@ -61,6 +61,7 @@ def test_a_good_one(tmp_path: Path) -> None:
         (GOOD + "[limits]\nwithout_fault_deg = 1.0\n", r"own.toml:8: .*compares with the flight"),
         (GOOD + "[limits]\nreach = [{ by_s = 3.0 }]\n", r"own.toml:8: .*takes a state or a mode"),
         (GOOD + "[wind\n", r"own.toml:7: no TOML"),
+        (GOOD + "[ground]\nslope_deg = 5.0\n", r"own.toml:1: plants: JSBSim has level ground only"),
         ('like = "other"\n', r"own.toml: like: there is no scenario other"),
     ],
 )

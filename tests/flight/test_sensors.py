@@ -305,6 +305,54 @@ def test_turbulence_has_the_strength_that_was_asked_for() -> None:
     assert gusts.std(axis=0) == pytest.approx([1.0, 0.8, 0.5], rel=0.15)
 
 
+def test_wind_is_weaker_near_the_ground() -> None:
+    assert wind.sheared(10.0, 0.143) == 1.0
+    assert wind.sheared(5.0, 0.143) == pytest.approx(0.9056, abs=1e-4)
+    assert wind.sheared(-2.0, 0.143) == wind.sheared(0.3, 0.143) == pytest.approx(0.6057, abs=1e-4)
+    assert wind.sheared(-2.0, 0.0) == 1.0
+
+
+def test_axes_feel_each_other() -> None:
+    (plain, square), (there, skewed) = (
+        inertial(Quality(noise=0.0, bias=0.0, cross_axis=share)) for share in (0.0, 0.02)
+    )
+    square.step(REST, 0.0, Broken())
+    skewed.step(REST, 0.0, Broken())
+    felt = said(there) - said(plain)
+    assert 0.01 < np.abs(felt[:, :2]).max() <= 0.02 * 9.81
+    assert np.abs(felt[:, 2:]).max() == 0.0  # Gravity is along z alone, and nothing turns.
+
+
+def field_of(quality: Quality) -> Any:
+    """What the magnetometer says at rest."""
+    there = memory()
+    devices = Slow(there, np.random.SeedSequence(3), quality)
+    for now in range(1, 101):
+        devices.step(now, Still(), Battery(voltage=16.0, current=0.0), Broken())
+    return there["magnetometer"]["field"].copy()
+
+
+def test_iron_adds_to_the_field() -> None:
+    quiet = Quality(noise=0.0, bias=0.0, field_noise=0.0)
+    irons = quiet.model_copy(update={"iron": [40.0, -25.0, 3.0]})
+    moved = field_of(irons) - field_of(quiet)
+    assert moved.tolist() == pytest.approx([40.0, -25.0, 3.0], abs=1e-4)
+
+
+@pytest.mark.parametrize(("above_m", "pascal"), [(0.0, 8.0), (0.5, 8.0 / math.e), (20.0, 0.0)])
+def test_propellers_press_on_the_barometer_near_the_ground(above_m: float, pascal: float) -> None:
+    """20 Pa at full thrust are 8 at two fifths of it."""
+    said_by = []
+    for wash in (0.0, 20.0):
+        there = memory()
+        devices = Slow(there, np.random.SeedSequence(3), Quality(wash=wash))
+        plant = Still(Truth(place=(0.0, 0.0, 3.0 + above_m), ground=3.0))
+        for now in range(1, 101):
+            devices.step(now, plant, Battery(), Broken(), 0.4)
+        said_by.append(float(there["barometer"]["pressure"]))
+    assert said_by[1] - said_by[0] == pytest.approx(pascal, abs=0.02)
+
+
 def test_full_scale() -> None:
     there, units = inertial(Quality(noise=0.0, bias=0.0))
     units.step([1e6, 0.0, 0.0, -1e6, 0.0, 0.0], 0.0, Broken())

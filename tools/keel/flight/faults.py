@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from keel.base.errors import ToolError, unknown
 from keel.flight.library import NO_BOARD, Copter
 from keel.flight.scenario import Fault, FirstFix, Shaking
-from keel.flight.sensors import Broken
+from keel.flight.sensors import UNITS, Broken
 from keel.plants.plants import MOTORS, THRUST_POWER
 from keel.plants.power import Battery
 
@@ -62,6 +62,12 @@ class Faults:
             if fault.kind == "imu_drift" and number in self.struck - self.mended:
                 drift = min(DRIFT_MOST, (fault.rate or 0.0) * (time_s - fault.at_s))
                 self.broken.drift[(fault.unit or 1) - 1] = drift
+            if fault.kind == "gps_drift" and number in self.struck - self.mended:
+                seconds = time_s - fault.at_s
+                self.broken.gps_drift = (
+                    seconds * (fault.north_m or 0.0),
+                    seconds * (fault.east_m or 0.0),
+                )
 
     def _set(self, fault: Fault, on: bool) -> None:
         """Begin or end a fault."""
@@ -81,6 +87,8 @@ class Faults:
             broken.scale[unit] = 1.0 + float(on) * (fault.share or 0.0)
         elif fault.kind == "imu_drift" and not on:
             broken.drift.pop(unit, None)
+        elif fault.kind == "imu_silent_all":
+            broken.silent.update(range(UNITS)) if on else broken.silent.clear()
         elif fault.kind == "radio_loss":
             broken.radio_lost = on
         elif fault.kind == "radio_failsafe":
@@ -120,6 +128,10 @@ class Faults:
         elif fault.kind == "motor_weak":
             share = (fault.share or 0.0) if on else 1.0  # Of its thrust.
             self.shares[(fault.motor or 1) - 1] = share ** (1.0 / THRUST_POWER)
+        elif fault.kind == "motor_stalls":
+            self.shares[(fault.motor or 1) - 1] = 0.0 if on else 1.0
+        elif fault.kind == "gps_drift" and not on:
+            broken.gps_drift = (0.0, 0.0)
         elif fault.kind == "battery_low" and on:
             self.battery.left = min(self.battery.left, fault.share or 0.0)
         elif fault.kind == "task_overrun" and on:

@@ -151,7 +151,7 @@ class Judge:
         """The fastest descent just above the ground, after it has flown."""
         up, speed = self._trace.column("up"), self._trace.column("v_up")
         flown = np.maximum.accumulate(up) > FLIES_M
-        near = flown & (up < 0.1) & (speed < 0.0)
+        near = flown & (up - self._trace.column("ground") < 0.1) & (speed < 0.0)
         return most(speed[near]) if near.any() else 0.0
 
     def skipped_max(self) -> float:
@@ -276,15 +276,19 @@ def reached(reaches: list[Reach], trace: Trace) -> Iterator[Finding]:
 def ended(scenario: Scenario, trace: Trace) -> Iterator[Finding]:
     """How it was at the end."""
     end, view = scenario.limits.end, trace.view[-1]
-    north, east, up = (float(trace.column(name)[-1]) for name in ("north", "east", "up"))
+    north, east, up, ground = (
+        float(trace.column(name)[-1]) for name in ("north", "east", "up", "ground")
+    )
     roll, pitch = (math.degrees(trace.column(name)[-1]) for name in ("roll", "pitch"))
     state = states()[int(view["state"])]
     if end.on_ground:
-        yield Finding("ends on the ground", f"{up:.2f} m up", f"{GROUND_M:g} m", up <= GROUND_M)
+        above = up - ground
+        low = above <= GROUND_M
+        yield Finding("ends on the ground", f"{above:.2f} m up", f"{GROUND_M:g} m", low)
     if end.upright:
         tilt = max(abs(roll), abs(pitch))
-        limit = f"{UPRIGHT_DEG:g} deg"
-        yield Finding("ends upright", f"{tilt:.1f} deg", limit, tilt <= UPRIGHT_DEG)
+        limit = UPRIGHT_DEG + scenario.ground.slope_deg
+        yield Finding("ends upright", f"{tilt:.1f} deg", f"{limit:g} deg", tilt <= limit)
     turns = bool(view["motors_on"])
     told = {True: "motors turn", False: "motors stand"}
     yield Finding("ends with", told[turns], told[end.motors_on], turns == end.motors_on)

@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import math
 import tempfile
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -28,8 +29,8 @@ from keel.flight.receivers import RADIO, RADIO_LINES, Receiver
 from keel.flight.scenario import Quality, Scenario
 from keel.flight.sensors import Broken, Inertial, Slow
 from keel.plants import plants, wind
-from keel.plants.plants import Airframe, Plant, Truth
-from keel.plants.power import Battery
+from keel.plants.plants import Airframe, Ground, Plant, Truth
+from keel.plants.power import RESISTANCE, Battery
 
 ROW_MS = 5  # A row of the trace.
 RADIO_FRAMES = {"sbus": device_frames.sbus, "crsf": device_frames.crsf, "ibus": device_frames.ibus}
@@ -52,6 +53,7 @@ TRUTH = (
     "wind_east",
     "voltage",
     "current",
+    "ground",
 )
 
 
@@ -96,7 +98,15 @@ class Trace:
 def airframe_of(order: Order) -> Airframe:
     """Of the order, unless the scenario has its own."""
     own = order.scenario.airframe
-    return order.airframe if own == type(own)() else Airframe(**own.model_dump())
+    if own == type(own)():
+        return order.airframe
+    return Airframe(**{**own.model_dump(), "motors": tuple(own.motors)})
+
+
+def delayed(airframe: Airframe) -> deque[Sequence[float]]:
+    """What the speed controllers were told in the last milliseconds, the oldest first."""
+    count = airframe.esc_ms + 1
+    return deque([[0.0] * plants.MOTORS] * count, maxlen=count)
 
 
 def without_faults(order: Order) -> Order:
@@ -143,8 +153,12 @@ class Flight:
         copter.hear(scenario.radio)
         seeds = np.random.SeedSequence(order.seed).spawn(4)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
-        self._plant: Plant = plants.make(order.plant, airframe_of(order), scenario.heading_deg)
-        self._battery = Battery(left=scenario.battery_left)
+        airframe = airframe_of(order)
+        ground = Ground(**scenario.ground.model_dump())
+        self._plant: Plant = plants.make(order.plant, airframe, scenario.heading_deg, ground)
+        self._battery = Battery(
+            left=scenario.battery_left, resistance=RESISTANCE * scenario.battery_resistance
+        )
         self._battery.step([0.0] * plants.MOTORS, 0.0)
         memory = copter.sensors
         quality = scenario.devices or order.quality
@@ -164,7 +178,11 @@ class Flight:
             [(gust.at_s, gust.length_s, gust.speed) for gust in air.gust],
         )
         self._still_air = scenario.wind == type(air)()
+        # Factors of commands; those of the airframe are of thrust.
+        self._uneven = [share ** (1.0 / plants.THRUST_POWER) for share in airframe.motors]
+        self._told = delayed(airframe)
         self._motors: Sequence[float] = [0.0] * plants.MOTORS
+        self._stood_ms = 0
         self._begun_ms = -1
         self._now_ms = 0
         self._mode_channels = {
@@ -193,8 +211,10 @@ class Flight:
 
     def _is_over(self, now_ms: int) -> bool:
         """After the scenario's time, or when the motors do not start."""
+        over_s = self._scenario.over_s
         if self._begun_ms >= 0:
-            return now_ms - self._begun_ms >= 1000.0 * self._scenario.duration_s
+            stood = over_s is not None and self._stood_ms >= 1000.0 * over_s
+            return stood or now_ms - self._begun_ms >= 1000.0 * self._scenario.duration_s
         if now_ms > 1000.0 * ARMS_WITHIN_S:
             self._copter.look()
             view = self._copter.view
@@ -216,7 +236,8 @@ class Flight:
             self._faults.step(time_s)
         broken = self._faults.broken
         thrust = sum(self._motors) / plants.MOTORS
-        self._slow.step(now_ms, plant, self._battery, broken)  # As it was when this began.
+        # As it was when this began.
+        self._slow.step(now_ms, plant, self._battery, broken, thrust)
         plant.step(self._motors)
         self._inertial.step(plant.inertial(), thrust, broken)  # It is given what was before.
         if now_ms % POWER_MS == 0:
@@ -226,16 +247,23 @@ class Flight:
         if status := copter.run_until(1000 * now_ms):
             raise NotFlown(f"at {time_s:.3f} s: {copter.why(status)}")
         copter.look()
-        scale = self._battery.voltage / plants.NOMINAL_V
-        self._motors = [
-            min(1.0, scale * share * motor)
-            for share, motor in zip(self._faults.shares, copter.motor.tolist(), strict=True)
-        ]
+        self._turn(copter.motor.tolist())
         if self._begun_ms < 0 and copter.view["motors_on"]:
             self._begun_ms = now_ms
             self._done_before = copter.done()
+        self._stood_ms = 0 if copter.view["motors_on"] else self._stood_ms + 1
         if self._begun_ms >= 0 and (now_ms - self._begun_ms) % ROW_MS == 0:
             self._record(now_ms)
+
+    def _turn(self, told: Sequence[float]) -> None:
+        """What the motors do from now on; they were told a dead time ago."""
+        self._told.append(told)
+        scale = self._battery.voltage / plants.NOMINAL_V
+        shares = [share * own for share, own in zip(self._faults.shares, self._uneven, strict=True)]
+        self._motors = [
+            min(1.0, scale * share * motor)
+            for share, motor in zip(shares, self._told[0], strict=True)
+        ]
 
     def _time_s(self, now_ms: int) -> float:
         """Of the flight; negative before."""
@@ -246,7 +274,9 @@ class Flight:
         self._battery.step(self._motors, POWER_MS / 1000.0)
         if not self._still_air:
             flown_ms = max(0, now_ms - self._begun_ms) if self._begun_ms >= 0 else 0
-            self._plant.blow(*self._wind[(flown_ms // WIND_MS) % len(self._wind)].tolist())
+            share = wind.sheared(self._plant.truth().place[2], self._scenario.wind.shear)
+            air = self._wind[(flown_ms // WIND_MS) % len(self._wind)]
+            self._plant.blow(*(share * air).tolist())
 
     def _send(self, now_ms: int, time_s: float, broken: Broken) -> None:
         """A frame of the radio."""
@@ -279,6 +309,7 @@ class Flight:
                 air[1],
                 self._battery.voltage,
                 self._battery.current,
+                truth.ground,
             )
         )
         self._views.append(bytes(self._copter.view_bytes))
@@ -310,8 +341,9 @@ def is_whole(truth: Truth) -> bool:
     """Whether it flies or stands, and is where an aircraft can be."""
     roll, pitch, _ = truth.angles
     known = all(math.isfinite(value) for value in (*truth.place, *truth.speed, *truth.angles))
-    lies = max(abs(roll), abs(pitch)) > LIES and truth.place[2] < LIES_M
-    return known and not lies and truth.place[2] > -1.0
+    above = truth.place[2] - truth.ground
+    lies = max(abs(roll), abs(pitch)) > LIES and above < LIES_M
+    return known and not lies and above > -1.0
 
 
 def fly(copter: Copter, order: Order, log: Path | None = None, runs: bool = False) -> Trace:

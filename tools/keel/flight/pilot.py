@@ -63,7 +63,8 @@ class Pilot:
             self._act(sight.time_s)
             self._fly(sight)
         sticks = [self._stick(name, sight.time_s) for name in ("roll", "pitch", "throttle", "yaw")]
-        ends = [MIDDLE + round(WAY * max(-1.0, min(1.0, stick))) for stick in sticks]
+        way = self.scenario.stick_way * WAY
+        ends = [MIDDLE + round(way * max(-1.0, min(1.0, stick))) for stick in sticks]
         return [
             *ends,
             ON if self.armed else OFF,
@@ -117,7 +118,7 @@ class Pilot:
         """Move the throttle by sight."""
         up, climbing = sight.truth.place[2], sight.truth.speed[2]
         if self.lands:
-            self._land(up, climbing, sight.thrusts)
+            self._land(up - sight.truth.ground, climbing, sight.thrusts)
         elif self.height is not None:
             error = self.height - up
             wanted = max(-SINK, min(CLIMB, 0.8 * error))

@@ -56,6 +56,7 @@ class Wind(Table):
     speed: Annotated[float, Field(ge=0.0, le=30.0)] = 0.0
     from_deg: Angle = 0.0
     turbulence: Share = 0.0
+    shear: Share = 0.0  # Speed is that at 10 m; elsewhere it goes with this power of the height.
     gust: list[Gust] = []
 
 
@@ -89,6 +90,7 @@ class Hand(Table):
 FAULTS: dict[str, tuple[str, ...]] = {
     "imu_freeze": ("unit",),
     "imu_silent": ("unit",),
+    "imu_silent_all": (),
     "imu_shout": ("unit",),
     "imu_drift": ("unit", "rate"),
     "imu_scale": ("unit", "share"),
@@ -98,6 +100,7 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "radio_noise": ("share",),
     "gps_loss": (),
     "gps_jump": ("north_m", "east_m"),
+    "gps_drift": ("north_m", "east_m"),
     "gps_noise": ("share",),
     "gps_wild": ("metres",),
     "barometer_spike": ("pascal",),
@@ -105,6 +108,7 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "barometer_stuck": (),
     "magnetometer_current": ("microtesla_per_ampere",),
     "motor_weak": ("motor", "share"),
+    "motor_stalls": ("motor",),
     "battery_low": ("share",),
     "task_overrun": ("task", "runs", "extra_us"),
     "imu_unplugged": ("unit",),
@@ -142,6 +146,7 @@ OPTIONAL: dict[str, tuple[str, ...]] = {
 FaultKind = Literal[
     "imu_freeze",
     "imu_silent",
+    "imu_silent_all",
     "imu_shout",
     "imu_drift",
     "imu_scale",
@@ -151,6 +156,7 @@ FaultKind = Literal[
     "radio_noise",
     "gps_loss",
     "gps_jump",
+    "gps_drift",
     "gps_noise",
     "gps_wild",
     "barometer_spike",
@@ -158,6 +164,7 @@ FaultKind = Literal[
     "barometer_stuck",
     "magnetometer_current",
     "motor_weak",
+    "motor_stalls",
     "battery_low",
     "task_overrun",
     "imu_unplugged",
@@ -185,7 +192,7 @@ class Fault(Table):
     rate: Positive | None = None  # Of a drift, in rad/s each second; of vibration, in rad/s.
     acceleration: Positive | None = None  # Of vibration: of each of two tones, in m/s^2.
     alike: bool | None = None  # Vibration is the same on all units.
-    north_m: float | None = None
+    north_m: float | None = None  # Of a jump; of a drift, each second.
     east_m: float | None = None
     metres: Positive | None = None  # Each fix is off by up to so much, each by another way.
     pascal: float | None = None
@@ -236,6 +243,9 @@ class Quality(Table):
     field_noise: Measure = 1.0
     field_per_ampere: Measure = 1.0
     scale: Share = 0.0  # Of each inertial unit's axes, off by up to this share.
+    cross_axis: Share = 0.0  # Each of their axes feels up to this share of each other one.
+    iron: Annotated[list[float], Field(min_length=3, max_length=3)] = [0.0, 0.0, 0.0]  # In uT.
+    wash: Measure = 0.0  # In Pa: more in front of the barometer, at full thrust on the ground.
     warmth: Measure = 0.0  # What gyroscopes' bias changes by as they get warm, in rad/s.
     gps_delay_ms: Milliseconds = 120
     imu_delay_ms: Milliseconds = 1
@@ -244,13 +254,29 @@ class Quality(Table):
 
 
 class Frame(Table):
-    """The aircraft: factors of what the F450's authors describe."""
+    """The aircraft: factors of what the F450's authors describe, where no unit is said."""
 
     mass: Factor = 1.0
     inertia: Factor = 1.0
     motor_speed: Factor = 1.0  # Turns per volt.
     motor_lag: Factor = 1.0
     drag: Factor = 1.0
+    motors: Annotated[list[Factor], Field(min_length=4, max_length=4)] = [1.0, 1.0, 1.0, 1.0]
+    forward_m: Annotated[float, Field(ge=-0.1, le=0.1)] = 0.0  # Where its centre of mass is.
+    right_m: Annotated[float, Field(ge=-0.1, le=0.1)] = 0.0
+    esc_ms: Annotated[int, Field(ge=0, le=100)] = 0  # Speed controllers begin so late.
+
+
+class Ground(Table):
+    """A plane through the start; one that moves swings about this place, as a deck does."""
+
+    slope_deg: Annotated[float, Field(ge=0.0, le=30.0)] = 0.0
+    towards_deg: Angle = 0.0  # Where it falls to; also the direction in which a deck rolls.
+    heave_m: Annotated[float, Field(ge=0.0, le=2.0)] = 0.0  # Up and down by so much.
+    roll_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 0.0  # To both sides by so much.
+    period_s: Annotated[float, Field(ge=2.0, le=60.0)] = 6.0
+    from_s: Seconds = 0.0  # Since power-up; it begins to move, and ...
+    until_s: Seconds = 0.0  # ... stands level again.
 
 
 class Place(Table):
@@ -331,8 +357,12 @@ class Scenario(Table):
     radio: Literal["sbus", "crsf", "ibus"] = "sbus"
     radio_hz: Literal[50, 111] = 50
     battery_left: Share = 0.95
+    battery_resistance: Factor = 1.0  # Of the new and warm one: cold doubles it, age, too.
+    stick_way: Annotated[float, Field(ge=0.5, le=1.2)] = 1.0  # Of the way that sticks should have.
+    over_s: Positive | None = None  # So long after the motors have stopped it is over.
     wind: Wind = Wind()
     airframe: Frame = Frame()
+    ground: Ground = Ground()
     devices: Quality | None = None  # Those of the flight, else.
     place: Place | None = None
     first_fix: FirstFix | None = None
@@ -365,6 +395,9 @@ def mistakes(scenario: Scenario) -> Iterator[Mistake]:
         for number, at_s in enumerate(begins):
             if at_s > scenario.duration_s:
                 yield (key, number, "at_s"), f"is after duration_s, {scenario.duration_s}"
+    ground = scenario.ground
+    if "jsbsim" in scenario.plants and (ground.slope_deg or ground.heave_m or ground.roll_deg):
+        yield ("plants",), 'JSBSim has level ground only: say plants = ["mujoco"]'
     for number, (before, after) in enumerate(zip(times, times[1:], strict=False)):
         if after < before:
             yield ("pilot", number + 1, "at_s"), f"is before the one above, {before}"

@@ -43,9 +43,12 @@ ACCELEROMETER_BIAS, GYROSCOPE_BIAS = 0.04, 0.01
 MISALIGNMENT = math.radians(0.15)
 VIBRATION = (0.6, 0.02)  # With all motors at full: in m/s^2, in rad/s.
 TONES_HZ = (140.0, 238.0)  # Of vibration with all motors at full: blades pass, and a harmonic.
+# In radians a millisecond, for both tones.
+TURNS_A_STEP = 2e-3 * math.pi * np.array(TONES_HZ).reshape(2, 1, 1)
 SHAKEN_FROM = 0.3  # Of full thrust: what is less shakes less, as thrust does.
 WARM_S = 40.0  # In which two thirds of the change by warmth has come about.
 FIELD_NOISE, FIELD_BIAS, FIELD_PER_AMPERE = 0.3, 0.3, 0.01  # In microtesla.
+WASH_M = 0.5  # Above the ground, where a third of the propellers' push on the barometer is left.
 PRESSURE_NOISE, PRESSURE_WANDER, PRESSURE_S = 1.5, 2.0, 100.0  # In Pa.
 PLACE_NOISE, PLACE_WANDER, PLACE_S, SPEED_NOISE = 0.03, 0.15, 120.0, 0.04  # In m, in m/s.
 
@@ -62,6 +65,7 @@ class Broken:
     shaking: Shaking | None = None
     gps_lost: bool = False
     gps_jump: tuple[float, float] = (0.0, 0.0)
+    gps_drift: tuple[float, float] = (0.0, 0.0)
     first_fix: tuple[float, float] = (0.0, 0.0)  # As it is wrong after power-up.
     gps_wild: float = 0.0  # Each fix is off by up to so much, in m, north and east.
     gps_noise: float = 0.0  # Of its line: the share of its bytes.
@@ -148,9 +152,14 @@ class Inertial:
     def _own(self, rng: np.random.Generator, quality: Quality) -> None:
         """What each unit has of its own: scale, phases of vibration, what warmth does."""
         self._scale = 1.0 + quality.scale * rng.uniform(-1.0, 1.0, 6 * UNITS)
-        self._phase = rng.uniform(0.0, 2.0 * math.pi, (2, UNITS, 6))
+        phase = rng.uniform(0.0, 2.0 * math.pi, (2, UNITS, 6))
+        # Each unit's own, or all as the first one's.
+        self._phase = (phase, np.repeat(phase[:, :1], UNITS, axis=1))
         warmth = rng.uniform(-1.0, 1.0, (UNITS, 6)) * np.array([0.0] * 3 + [quality.warmth] * 3)
-        self._warmth = warmth.reshape(-1)
+        self._warmth, self._warms = warmth.reshape(-1), quality.warmth > 0.0
+        for row in range(0, 6 * UNITS, 3):
+            skew = quality.cross_axis * rng.uniform(-1.0, 1.0, (3, 3))
+            self._turn[row : row + 3, row % 6 : row % 6 + 3] += skew * (1.0 - np.eye(3))
         self._shaking = quality.shaking
         self._turned = np.zeros((2, 1, 1))  # What tones have turned, in radians.
         self._steps = 0
@@ -169,7 +178,9 @@ class Inertial:
         self._late.append(true)
         noise = (self._noise + thrust * self._shake) * drawn
         self._steps += 1
-        bias = self._bias + self._warmth * (1.0 - math.exp(-1e-3 * self._steps / WARM_S))
+        bias = self._bias
+        if self._warms:
+            bias = bias + self._warmth * (1.0 - math.exp(-1e-3 * self._steps / WARM_S))
         said = self._scale * (self._turn @ self._late[0]) + bias + noise
         said += self._tones(broken.shaking or self._shaking, thrust)
         np.minimum(said, self._limits, out=said)  # Much quicker than numpy's clip.
@@ -183,16 +194,14 @@ class Inertial:
         self._count += 1
 
     def _tones(self, shaking: Shaking, thrust: float) -> Any:
-        """Two tones on every axis; a step is a millisecond, thrust is as the speed's square."""
+        """Two tones on every axis; thrust is as the speed's square."""
         if not shaking.acceleration and not shaking.rate:
             return 0.0
-        hertz = math.sqrt(thrust) * np.array(TONES_HZ).reshape(2, 1, 1)
-        self._turned += 2e-3 * math.pi * hertz
+        self._turned += math.sqrt(thrust) * TURNS_A_STEP
+        first, second = np.sin(self._turned + self._phase[int(shaking.alike)])
         heights = np.array([shaking.acceleration] * 3 + [shaking.rate] * 3)
         heights *= min(1.0, thrust / SHAKEN_FROM)
-        phases = self._phase[:, :1] if shaking.alike else self._phase
-        tones = (heights * np.sin(self._turned + phases)).sum(axis=0)
-        return np.broadcast_to(tones, (UNITS, 6)).reshape(-1)
+        return (heights * (first + second)).reshape(-1)
 
     def _break(self, units: Any, drawn: Any, broken: Broken) -> None:
         """The same with units that fail. Those that freeze repeat their last sample."""
@@ -228,7 +237,8 @@ class Slow:
         self._receiver = Receiver(memory, SATELLITES, line_rng)
         self._memory, self._quality = memory, quality
         self._field_turn = turned(self._field_rng, quality.bias * math.radians(0.3))
-        self._field_bias = quality.bias * FIELD_BIAS * self._field_rng.uniform(-1.0, 1.0, 3)
+        own_bias = quality.bias * FIELD_BIAS * self._field_rng.uniform(-1.0, 1.0, 3)
+        self._field_bias = own_bias + np.array(quality.iron)
         per_ampere = self._field_rng.uniform(-1.0, 1.0, 3)
         self._per_ampere = per_ampere / np.linalg.norm(per_ampere)
         self._air = Wander(self._air_rng, quality.noise * PRESSURE_WANDER, PRESSURE_S, 0.02, 1)
@@ -238,12 +248,14 @@ class Slow:
         self._late: deque[tuple[int, bytes]] = deque()
         self._pressures: deque[tuple[int, float, int]] = deque()
 
-    def step(self, now_ms: int, plant: Plant, battery: Battery, broken: Broken) -> None:
-        """What is due in this millisecond."""
+    def step(
+        self, now_ms: int, plant: Plant, battery: Battery, broken: Broken, thrust: float = 0.0
+    ) -> None:
+        """What is due in this millisecond, with the motors at this share of their thrust."""
         if now_ms % 10 == 3:
             self._magnetometer(plant, battery, broken)
         if now_ms % 20 == 7:
-            self._barometer(now_ms, plant, broken)
+            self._barometer(now_ms, plant, broken, thrust)
         if self._pressures and self._pressures[0][0] <= now_ms:
             _, pressure, temperature = self._pressures.popleft()
             self._tell_pressure(pressure, temperature, broken)
@@ -284,13 +296,22 @@ class Slow:
             self._home.longitude + (truth.place[1] + east_m) / east,
         )
 
-    def _barometer(self, now_ms: int, plant: Plant, broken: Broken) -> None:
+    def _barometer(self, now_ms: int, plant: Plant, broken: Broken, thrust: float) -> None:
         white, walk = self._air_rng.standard_normal(2)
         noise = self._quality.noise * PRESSURE_NOISE * white
         true = plant.pressure()
         said = true + noise + self._air.step(walk)[0] + broken.pascal
+        said += self._washed(plant, thrust)
         warm = round(100.0 * standard_temperature(true)) + BAROMETER_WARMER
         self._pressures.append((now_ms + self._quality.baro_delay_ms, said, warm))
+
+    def _washed(self, plant: Plant, thrust: float) -> float:
+        """What the propellers' air does to the barometer near the ground, where it piles up."""
+        if not self._quality.wash:
+            return 0.0
+        truth = plant.truth()
+        above = max(0.0, truth.place[2] - truth.ground)
+        return self._quality.wash * thrust * math.exp(-above / WASH_M)
 
     def _tell_pressure(self, pressure: float, temperature: int, broken: Broken) -> None:
         if broken.barometer_lost:
@@ -311,9 +332,11 @@ class Slow:
         truth = plant.truth()
         quality = self._quality.gps_noise
         north, east = quality * PLACE_NOISE * drawn[:2] + self._place.step(drawn[2:4])
-        jump_north, jump_east = np.add(
-            broken.gps_jump, broken.first_fix
-        ) + broken.gps_wild * self._wild_rng.uniform(-1.0, 1.0, 2)
+        wild = broken.gps_wild * self._wild_rng.uniform(-1.0, 1.0, 2)
+        jump_north, jump_east = wild + [
+            sum(parts)
+            for parts in zip(broken.gps_jump, broken.gps_drift, broken.first_fix, strict=True)
+        ]
         place = self._place_of(truth, north + jump_north, east + jump_east)
         speed = (
             truth.speed[0] + quality * SPEED_NOISE * drawn[4],

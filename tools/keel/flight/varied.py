@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import hashlib
+import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,8 @@ from keel.plants.plants import Airframe
 
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
+OVER_S = 2.0  # Nothing happens any more so long after its motors have stopped.
+DECK_S = 8.0  # Since power-up: by then it has calibrated its gyroscopes at rest.
 HEALTHY = "no fault"
 TOOLS = ("tools/keel/flight", "tools/keel/plants", "tools/keel/base/plotting.py")
 PINS = ("fly", "timing")  # Groups of Python packages.
@@ -70,12 +74,17 @@ def order_of(seed: int) -> Order:
     draw = Draw(seed)
     plant = draw.one_of(plants.NAMES)
     airframe = Airframe(
-        mass=draw.between(0.6, 1.2),
-        inertia=draw.between(0.7, 1.25),
+        mass=draw.between(0.6, 1.5),
+        inertia=draw.between(0.7, 1.5),
         motor_speed=draw.between(0.93, 1.07),
         motor_lag=draw.factor(1.5),
         drag=draw.factor(2.0),
+        motors=tuple(draw.between(0.92, 1.08) for _ in range(plants.MOTORS)),
+        forward_m=draw.between(-0.01, 0.01),
+        right_m=draw.between(-0.01, 0.01),
+        esc_ms=draw.one_of((0, 1, 2, 4, 8)),
     )
+    iron = iron_of(draw)
     quality = Quality(
         noise=draw.factor(2.0),
         bias=draw.between(0.3, 1.5),
@@ -84,14 +93,70 @@ def order_of(seed: int) -> Order:
         imu_delay_ms=draw.one_of((1, 2)),
         baro_delay_ms=int(draw.between(5, 30)),
         gps_noise=draw.factor(2.0),
-        gps_wander=draw.between(1.0, 12.0),
+        gps_wander=draw.between(1.0, 20.0),
         scale=draw.between(0.0, 0.03),
+        cross_axis=draw.between(0.0, 0.01),
+        iron=iron,
+        wash=draw.between(0.0, 20.0),
         warmth=draw.between(0.0, 0.02),
         shaking=shaking_of(draw),
         field_noise=draw.between(1.0, 7.0),
         field_per_ampere=draw.between(1.0, 10.0),
     )
-    return Order(scenario_of(draw), plant, seed, airframe, quality)
+    return Order(scenario_of(draw, plant, iron), plant, seed, airframe, quality)
+
+
+def iron_of(draw: Draw) -> list[float]:
+    """What magnets and iron near the magnetometer add, in microtesla, in any direction."""
+    way = [draw.between(-1.0, 1.0) for _ in range(3)]
+    amount = draw.between(3.0, 115.0) / max(0.1, math.hypot(*way))
+    return [round(amount * part, 2) for part in way]
+
+
+def calibrated(draw: Draw, iron: Sequence[float]) -> dict[str, float]:
+    """What the pilot's calibration found of it: to a microtesla."""
+    return {
+        f"MAG_OFF_{axis}": round(part + draw.between(-1.0, 1.0), 2)
+        for axis, part in zip("XYZ", iron, strict=True)
+    }
+
+
+def ground_of(draw: Draw, plant: str) -> dict[str, float]:
+    """Level for JSBSim. Else every third is a slope, every sixth a deck that stands still for
+    calibration and landing."""
+    kind = draw.one_of(("level", "level", "level", "slope", "slope", "deck"))
+    towards = draw.between(0.0, 360.0)
+    if plant == "jsbsim" or kind == "level":
+        return {}
+    if kind == "slope":
+        return {"slope_deg": draw.between(0.0, 15.0), "towards_deg": towards}
+    return {
+        "towards_deg": towards,
+        "heave_m": draw.between(0.1, 0.4),
+        "roll_deg": draw.between(1.0, 4.0),
+        "period_s": draw.between(5.0, 8.0),
+        "from_s": DECK_S,
+        "until_s": DECK_S + 20.0,
+    }
+
+
+def wind_of(draw: Draw) -> dict[str, Any]:
+    """Up to 12 m/s, with a gust or two."""
+    gusts = [
+        {
+            "at_s": draw.between(4.0, 25.0),
+            "length_s": draw.between(1.0, 6.0),
+            "speed": draw.between(-3.0, 3.0),
+        }
+        for _ in range(draw.one_of((0, 1, 2)))
+    ]
+    return {
+        "speed": draw.between(0.0, 12.0),
+        "from_deg": draw.between(0.0, 360.0),
+        "turbulence": draw.between(0.0, 0.2),
+        "shear": draw.between(0.0, 0.2),
+        "gust": gusts,
+    }
 
 
 def shaking_of(draw: Draw) -> Shaking:
@@ -102,7 +167,7 @@ def shaking_of(draw: Draw) -> Shaking:
     )
 
 
-def scenario_of(draw: Draw) -> Scenario:
+def scenario_of(draw: Draw, plant: str, iron: Sequence[float]) -> Scenario:
     """A mission in position or altitude mode, most with a fault in its middle."""
     mode = draw.one_of(("position", "position", "altitude"))
     ends = draw.one_of(("land", "land", "return"))
@@ -119,21 +184,22 @@ def scenario_of(draw: Draw) -> Scenario:
         {"at_s": 12.0, "pitch": 0.0, "roll": 0.0, "yaw": 0.0},
         {"at_s": 26.0, "mode": ends},
     ]
-    wind = {
-        "speed": draw.between(0.0, 6.0),
-        "from_deg": draw.between(0.0, 360.0),
-        "turbulence": draw.between(0.0, 0.2),
-    }
     told = fault["kind"] if fault else HEALTHY
     return Scenario.model_validate(
         {
             "description": told,
+            "plants": [plant],
             "duration_s": DURATION_S,
+            "over_s": OVER_S,
             "mode": mode,
             "heading_deg": draw.between(0.0, 360.0),
             "radio_hz": draw.one_of((50, 111)),
-            "battery_left": draw.between(0.4, 1.0),
-            "wind": wind,
+            "battery_left": draw.between(0.32, 1.0),  # With less it is not armed.
+            "battery_resistance": draw.between(1.0, 2.5),
+            "stick_way": draw.between(0.9, 1.2),
+            "wind": wind_of(draw),
+            "ground": ground_of(draw, plant),
+            "parameters": calibrated(draw, iron),
             "pilot": hands,
             "first_fix": first_fix_of(draw),
             "fault": [fault] if fault else [],
@@ -170,6 +236,7 @@ def fault_of(draw: Draw) -> dict[str, Any] | None:
         "imu_shout": {"unit": unit},
         "imu_drift": {"unit": unit, "rate": draw.between(0.03, 0.5)},
         "imu_scale": {"unit": unit, "share": draw.between(0.0, 0.06)},
+        "imu_silent_all": {"until_s": at_s + draw.between(0.01, 0.3)},
         "radio_loss": {},
         "radio_failsafe": {},
         "gps_loss": {},
@@ -177,6 +244,11 @@ def fault_of(draw: Draw) -> dict[str, Any] | None:
             "north_m": draw.between(-50, 50),
             "east_m": draw.between(-50, 50),
             "until_s": at_s + draw.between(0.5, 2.5),
+        },
+        "gps_drift": {
+            "north_m": draw.between(-0.5, 0.5),
+            "east_m": draw.between(-0.5, 0.5),
+            "until_s": at_s + draw.between(5.0, 20.0),
         },
         "barometer_spike": {
             "pascal": draw.between(-300, 300),
@@ -187,6 +259,10 @@ def fault_of(draw: Draw) -> dict[str, Any] | None:
         "gps_wild": {"metres": draw.between(20.0, 300.0), "until_s": at_s + draw.between(1.0, 4.0)},
         "magnetometer_current": {"microtesla_per_ampere": draw.between(0.05, 0.4)},
         "motor_weak": {"motor": draw.one_of((1, 2, 3, 4)), "share": draw.between(0.7, 0.95)},
+        "motor_stalls": {
+            "motor": draw.one_of((1, 2, 3, 4)),
+            "until_s": at_s + draw.between(0.01, 0.08),
+        },
         "battery_low": {"share": draw.between(0.03, 0.06)},
         "radio_noise": {"share": draw.between(0.002, 0.03)},
         "gps_noise": {"share": draw.between(0.001, 0.01)},

@@ -153,17 +153,22 @@ class quiet:
 
 @functools.lru_cache(maxsize=4)
 def described(airframe: Airframe) -> Path:
-    """A folder with the F450's files; other than JSBSim's own only when the airframe differs."""
+    """A folder with the F450's files, changed as the airframe differs.
+
+    Its legs are wheels, on which the wind rolls it away; here they are skids.
+    """
     own = Path(jsbsim.__file__).parent
-    if airframe == Airframe():
-        return own
     folder = Path(tempfile.mkdtemp(prefix="keel-f450-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     shutil.copytree(own / "aircraft/F450", folder / "aircraft/F450")
     (folder / "engine").mkdir()
     (folder / "systems").symlink_to(own / "systems")
     frame = folder / "aircraft/F450"
+    gear = frame / "Gear.xml"
+    gear.write_text(gear.read_text().replace('type="BOGEY"', 'type="STRUCTURE"'))
     scaled(frame / "Mass.xml", frame / "Mass.xml", r'<emptywt unit="KG">', airframe.mass)
+    for axis, metres in (("x", -airframe.forward_m), ("y", airframe.right_m)):  # x points aft.
+        moved(frame / "Mass.xml", rf'<location name="CG" unit="M">.*?<{axis}>', metres)
     for axis in ("ixx", "iyy", "izz"):
         scaled(frame / "Mass.xml", frame / "Mass.xml", rf'<{axis} unit="KG\*M2">', airframe.inertia)
     scaled(frame / "Metrics.xml", frame / "Metrics.xml", r'<wingarea unit="M2">', airframe.drag)
@@ -175,11 +180,22 @@ def described(airframe: Airframe) -> Path:
 
 def scaled(source: Path, target: Path, before: str, factor: float) -> None:
     """A file with the number behind a text multiplied."""
+    target.write_text(changed(source, before, lambda number: factor * number))
+
+
+def moved(path: Path, before: str, by: float) -> None:
+    """A file with something added to the number behind a text."""
+    path.write_text(changed(path, before, lambda number: number + by))
+
+
+def changed(source: Path, before: str, change: Callable[[float], float]) -> str:
+    """A file's text with the one number behind a text changed."""
     text, count = re.subn(
         rf"({before}\s*)([-+.\deE]+)",
-        lambda match: f"{match[1]}{float(match[2]) * factor!r}",
+        lambda match: f"{match[1]}{change(float(match[2]))!r}",
         source.read_text(),
+        flags=re.DOTALL,
     )
     if count != 1:
         raise ToolError(f"{source.name} of JSBSim's F450 has {count} times {before}")
-    target.write_text(text)
+    return text

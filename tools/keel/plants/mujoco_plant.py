@@ -11,6 +11,7 @@ import math
 from collections.abc import Sequence
 
 import mujoco
+import numpy as np
 
 from keel.plants.plants import (
     EAST_M,
@@ -21,6 +22,7 @@ from keel.plants.plants import (
     STEP_S,
     THRUST_POWER,
     Airframe,
+    Ground,
     Truth,
     standard_pressure,
 )
@@ -39,16 +41,19 @@ FIELD_UT = (21.4, 1.2, -42.8)  # North, east, up.
 # clockwise, which is to the right.
 PLACES = ((1, -1), (-1, -1), (-1, 1), (1, 1))
 TURNS = (-1, 1, -1, 1)  # Of the body, about its axis up.
+UP = np.array([0.0, 0.0, 1.0])
 
 MODEL = """
 <mujoco model="quadrotor">
   <option timestep="{step}" integrator="implicitfast" density="{density}"
           viscosity="1.8e-5" gravity="0 0 -9.8066" magnetic="{east} {north} {up}"/>
   <worldbody>
-    <geom name="ground" type="plane" size="0 0 1" friction="0.8"/>
+    <body name="ground" mocap="true">
+      <geom name="ground" type="plane" size="0 0 1" friction="0.8"/>
+    </body>
     <body name="copter" pos="0 0 {legs}">
       <freejoint/>
-      <inertial pos="0 0 0" mass="{mass}" diaginertia="{ixx} {iyy} {izz}"/>
+      <inertial pos="{forward} {left} 0" mass="{mass}" diaginertia="{ixx} {iyy} {izz}"/>
       {legs_xml}
       {sites}
       <site name="imu"/>
@@ -84,6 +89,8 @@ def model_of(airframe: Airframe) -> str:
         up=up,
         legs=LEGS_M,
         mass=MASS_KG * airframe.mass,
+        forward=airframe.forward_m,
+        left=-airframe.right_m,
         ixx=ixx,
         iyy=iyy,
         izz=izz,
@@ -97,11 +104,18 @@ def model_of(airframe: Airframe) -> str:
 class MujocoPlant:
     """The model on its legs, its motors standing."""
 
-    def __init__(self, airframe: Airframe, heading_deg: float) -> None:
+    def __init__(
+        self, airframe: Airframe, heading_deg: float, ground: Ground | None = None
+    ) -> None:
         self._model = mujoco.MjModel.from_xml_string(model_of(airframe))
         self._data = mujoco.MjData(self._model)
-        half = math.radians(90.0 - heading_deg) / 2.0
-        self._data.qpos[3:7] = (math.cos(half), 0.0, 0.0, math.sin(half))
+        self._ground = ground or Ground()
+        self._steps = 0
+        self._lay_ground()
+        heading = np.empty(4)
+        mujoco.mju_axisAngle2Quat(heading, UP, math.radians(90.0 - heading_deg))
+        mujoco.mju_mulQuat(self._data.qpos[3:7], self._data.mocap_quat[0], heading)
+        self._data.qpos[:3] = LEGS_M * self._normal
         mujoco.mj_forward(self._model, self._data)
         self._position = self._data.qpos
         self._velocity = self._data.qvel
@@ -111,7 +125,23 @@ class MujocoPlant:
     def step(self, motors: Sequence[float]) -> None:
         """1 ms. Its actuators take a thrust, not a command."""
         self._control[:] = [motor**THRUST_POWER if motor > 0.0 else 0.0 for motor in motors]
+        self._steps += 1
+        if not self._ground.is_level:
+            self._lay_ground()
         mujoco.mj_step(self._model, self._data)
+
+    def _lay_ground(self) -> None:
+        """Where the ground is now. It tilts about the level axis to the left of where it falls."""
+        height, steep_deg = self._ground.at(self._steps * STEP_S)
+        towards, steep = math.radians(self._ground.towards_deg), math.radians(steep_deg)
+        axis = np.array([-math.cos(towards), math.sin(towards), 0.0])
+        mujoco.mju_axisAngle2Quat(self._data.mocap_quat[0], axis, steep)
+        self._data.mocap_pos[0] = (0.0, 0.0, height)
+        flat = math.sin(steep)
+        self._normal = np.array(
+            [flat * math.sin(towards), flat * math.cos(towards), math.cos(steep)]
+        )
+        self._height = height
 
     def inertial(self) -> list[float]:
         """Its accelerometer and its gyroscope."""
@@ -135,12 +165,15 @@ class MujocoPlant:
         nose_down = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
         left_of_east = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
         yaw = (math.pi / 2 - left_of_east) % (2 * math.pi)
+        out_east, out_north, out_up = self._normal.tolist()
+        stands = self._height + (LEGS_M - east * out_east - north * out_north) / out_up
         return Truth(
             (north, east, up - LEGS_M),
             (v_north, v_east, v_up),
             (roll, -nose_down, yaw),
             HOME_LATITUDE + north / NORTH_M,
             HOME_LONGITUDE + east / EAST_M,
+            stands - LEGS_M,
         )
 
     def blow(self, north: float, east: float, down: float) -> None:

@@ -12,6 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from keel.base.errors import ToolError
+
 STEP_S = 0.001
 MOTORS = 4  # Front right, aft right, aft left, front left.
 
@@ -29,13 +31,47 @@ FLATNESS = 1.0 / 298.257223563
 
 @dataclass(frozen=True)
 class Airframe:
-    """What may differ from the F450 as its authors describe it: factors."""
+    """What may differ from the F450 as its authors describe it: factors, where no unit is said."""
 
     mass: float = 1.0
     inertia: float = 1.0
     motor_speed: float = 1.0  # Turns per volt.
     motor_lag: float = 1.0
     drag: float = 1.0
+    motors: tuple[float, ...] = (1.0,) * MOTORS  # Of the thrust of each.
+    forward_m: float = 0.0  # Where the centre of mass is, from the middle of the motors.
+    right_m: float = 0.0
+    esc_ms: int = 0  # After which speed controllers begin to do what they were told.
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What the aircraft starts from and lands on. A plane through the place where it starts; one
+    that moves swings about this place, as a deck does."""
+
+    slope_deg: float = 0.0
+    towards_deg: float = 0.0  # Where it falls to; also the direction in which a deck rolls.
+    heave_m: float = 0.0  # Up and down by so much.
+    roll_deg: float = 0.0  # To both sides by so much.
+    period_s: float = 6.0
+    from_s: float = 0.0  # Since power-up; it begins to move, and ...
+    until_s: float = 0.0  # ... stands level again.
+
+    @property
+    def is_level(self) -> bool:
+        """Whether it is as every plant can have it."""
+        return not (self.slope_deg or self.heave_m or self.roll_deg)
+
+    def at(self, time_s: float) -> tuple[float, float]:
+        """How high it is where the aircraft started, in m, and how steep, in degrees; it begins
+        and ends without a jump."""
+        if not self.from_s < time_s < self.until_s:
+            return 0.0, self.slope_deg
+        near_s = min(time_s - self.from_s, self.until_s - time_s)
+        share = min(1.0, near_s / self.period_s)
+        turn = 2.0 * math.pi * (time_s - self.from_s) / self.period_s
+        rolled = share * self.roll_deg * math.sin(0.7 * turn)  # Never both at once.
+        return share * self.heave_m * math.sin(turn), self.slope_deg + rolled
 
 
 @dataclass
@@ -47,6 +83,7 @@ class Truth:
     angles: tuple[float, float, float] = (0.0, 0.0, 0.0)  # Roll, pitch, yaw, in rad.
     latitude: float = HOME_LATITUDE
     longitude: float = HOME_LONGITUDE
+    ground: float = 0.0  # What `place` has up where it would stand on the ground below it.
 
 
 class Plant(Protocol):
@@ -94,15 +131,18 @@ def standard_temperature(pressure_pa: float) -> float:
     return float(288.15 * (pressure_pa / 101325.0) ** 0.190263 - 273.15)
 
 
-def make(name: str, airframe: Airframe, heading_deg: float) -> Plant:
+def make(name: str, airframe: Airframe, heading_deg: float, ground: Ground | None = None) -> Plant:
     """A plant by its name, on the ground, with its nose there."""
+    ground = ground or Ground()
     if name == "jsbsim":
+        if not ground.is_level:
+            raise ToolError(f"{name} has level ground only")
         from keel.plants.jsbsim_plant import JsbsimPlant
 
         return JsbsimPlant(airframe, heading_deg)
     from keel.plants.mujoco_plant import MujocoPlant
 
-    return MujocoPlant(airframe, heading_deg)
+    return MujocoPlant(airframe, heading_deg, ground)
 
 
 NAMES = ("jsbsim", "mujoco")

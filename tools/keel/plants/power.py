@@ -15,6 +15,7 @@ CELL_V = (3.2, 3.5, 3.62, 3.7, 3.78, 3.88, 4.02, 4.18)
 AVIONICS_A = 0.5
 FULL_A = 18.0  # Of a motor at its nominal voltage.
 CURRENT_POWER = 2.2
+RESISTANCE = 0.02  # When it is new and warm.
 
 
 @dataclass
@@ -23,7 +24,7 @@ class Battery:
 
     capacity_ah: float = 5.0
     left: float = 0.95
-    resistance: float = 0.02  # In ohm, of all cells.
+    resistance: float = RESISTANCE  # In ohm, of all cells.
     voltage: float = 16.0
     current: float = 0.0
 

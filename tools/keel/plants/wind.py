@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 PERIOD_S = 0.01
+REFERENCE_M, LEAST_M = 10.0, 0.3  # Where a wind's speed is told; below, it is that of the least.
 HEIGHT_M = 6.0  # Dryden's lengths near the ground are about the height; it hardly matters here.
 
 
@@ -26,6 +27,11 @@ def turbulence(rng: np.random.Generator, count: int, mean: float, strength: floa
         state = keep * state + pushes[number]
         found[number] = state
     return found
+
+
+def sheared(height_m: float, exponent: float) -> float:
+    """The share of the speed at REFERENCE_M that the wind has so high: the power law."""
+    return float((max(height_m, LEAST_M) / REFERENCE_M) ** exponent)
 
 
 def gust(count: int, start_s: float, length_s: float, speed: float) -> Any:
