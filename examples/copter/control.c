@@ -204,15 +204,27 @@ void copter_position_control(copter_control_t *self, const copter_t *copter)
     }
 }
 
+/* The sticks' angles, where they say them. What touches the ground stays as it stands, so that it
+ * comes to lie on a slope while the motors still carry most of it. */
+static keel_cascade_tilt_t asked_tilt(const copter_control_t *self, const copter_pilot_t *pilot,
+                                      const copter_t *copter)
+{
+    const keel_reference_setpoints_t *const asked = &pilot->reference.setpoints;
+    const keel_attitude_vector_t down = copter->imu.down;
+
+    if (sticks_tilt(copter)) {
+        return (keel_cascade_tilt_t){.roll = asked->roll, .pitch = asked->pitch};
+    }
+    if (copter->estimate.touches) {
+        return (keel_cascade_tilt_t){.roll = down.y, .pitch = -down.x};
+    }
+    return self->cascade.tilt;
+}
+
 void copter_angle_control(copter_control_t *self, copter_pilot_t *pilot, const copter_t *copter)
 {
-    keel_cascade_t *const cascade = &self->cascade;
-    const keel_reference_setpoints_t *const asked = &pilot->reference.setpoints;
-    keel_cascade_tilt_t sticks;
-
     copter_pilot_smooth(pilot);
-    sticks = (keel_cascade_tilt_t){.roll = asked->roll, .pitch = asked->pitch};
-    keel_cascade_angle_step(cascade, sticks_tilt(copter) ? sticks : cascade->tilt, copter->imu.down,
+    keel_cascade_angle_step(&self->cascade, asked_tilt(self, pilot, copter), copter->imu.down,
                             copter->imu.attitude.phase == KEEL_ATTITUDE_RUNNING);
 }
 

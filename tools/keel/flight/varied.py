@@ -85,6 +85,7 @@ def order_of(seed: int) -> Order:
         esc_ms=draw.one_of((0, 1, 2, 4, 8)),
     )
     iron = iron_of(draw)
+    gps_noise = draw.factor(2.0)
     quality = Quality(
         noise=draw.factor(2.0),
         bias=draw.between(0.3, 1.5),
@@ -92,8 +93,8 @@ def order_of(seed: int) -> Order:
         gps_delay_ms=int(draw.between(80, 200)),
         imu_delay_ms=draw.one_of((1, 2)),
         baro_delay_ms=int(draw.between(5, 30)),
-        gps_noise=draw.factor(2.0),
-        gps_wander=draw.between(1.0, 20.0),
+        gps_noise=gps_noise,
+        gps_wander=round(draw.between(1.0, 20.0) / gps_noise, 4),  # 0.15 to 3 m.
         scale=draw.between(0.0, 0.03),
         cross_axis=draw.between(0.0, 0.01),
         iron=iron,
@@ -121,12 +122,13 @@ def calibrated(draw: Draw, iron: Sequence[float]) -> dict[str, float]:
     }
 
 
-def ground_of(draw: Draw, plant: str) -> dict[str, float]:
-    """Level for JSBSim. Else every third is a slope, every sixth a deck that stands still for
-    calibration and landing."""
+def ground_of(draw: Draw, plant: str, mode: str, fault: str) -> dict[str, float]:
+    """Level for JSBSim. Else every third is a slope, where it knows its place: who drifts up a
+    slope hits it. Every sixth is a deck, which stands still for calibration and landing."""
     kind = draw.one_of(("level", "level", "level", "slope", "slope", "deck"))
     towards = draw.between(0.0, 360.0)
-    if plant == "jsbsim" or kind == "level":
+    drifts = mode != "position" or fault.startswith("gps_")
+    if plant == "jsbsim" or kind == "level" or (kind == "slope" and drifts):
         return {}
     if kind == "slope":
         return {"slope_deg": draw.between(0.0, 15.0), "towards_deg": towards}
@@ -198,7 +200,7 @@ def scenario_of(draw: Draw, plant: str, iron: Sequence[float]) -> Scenario:
             "battery_resistance": draw.between(1.0, 2.5),
             "stick_way": draw.between(0.9, 1.2),
             "wind": wind_of(draw),
-            "ground": ground_of(draw, plant),
+            "ground": ground_of(draw, plant, mode, told),
             "parameters": calibrated(draw, iron),
             "pilot": hands,
             "first_fix": first_fix_of(draw),
