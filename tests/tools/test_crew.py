@@ -44,6 +44,7 @@ class FakeTrial:
         self.unusable: list[str] = []
         self.not_executed: dict[str, str] = {}
         self.sample = Sample(50)
+        self.late = Sample(10)
         self.interrupted = False
 
     def try_mutant(self, mutant: Mutant) -> Verdict:

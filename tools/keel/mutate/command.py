@@ -2,7 +2,7 @@
 """Measure how strong the proofs of a unit are: break its code in small ways, see who notices.
 
     python3 tools/keel mutate                              # all units, on all cores
-    python3 tools/keel mutate --unit queue                 # CBMC first, WP if CBMC does not notice
+    python3 tools/keel mutate --unit queue                 # until CBMC or WP notices
     python3 tools/keel mutate --unit queue --engine both   # each engine by itself
     python3 tools/keel mutate --unit queue --list          # the mutants, without trying them
     python3 tools/keel mutate --status                     # results kept and had, which are stale
@@ -13,7 +13,9 @@
 Mutants are slips of the pen (another operator, a number beside the right one, a statement left out)
 and of thought (order, a stale value, the neighbour's field or index, a check that comes too late, a
 clause forgotten; tools/keel/mutate/slips.py). One is killed by a counterexample to a harness of
-CBMC, or by a goal that WP leaves open within its full limits. A counterexample is an execution:
+CBMC, or by a goal that WP leaves open within three times the processor time that the unchanged
+function needs; one of ten such goals is asked about with WP's full limits, and the run fails where
+these prove it. A counterexample is an execution:
 first the harnesses are executed on this machine, on inputs that were found on the unchanged code
 (tools/keel/mutate/execution.py; CBMC is asked to confirm one of 50, see --confirm, and the run
 fails where it does not), then CBMC looks for one, at small capacities first
@@ -306,6 +308,10 @@ class Measurement:
                 f"executed, and CBMC sees no failure: {text}"
                 for text in one.trial.sample.contradictions
             ]
+            problems += [
+                f"not proved in short limits, and proved in the full ones: {text}"
+                for text in one.trial.late.contradictions
+            ]
             problems += mutant_verdicts.settle(verdicts, accepted, not self._options.function)
             text = mutant_verdicts.report(
                 one.unit.name, verdicts, problems, one.dropped, one.digest
@@ -326,10 +332,11 @@ class Measurement:
 
 def executed(one: Measured) -> list[str]:
     """What was executed now, what CBMC said of it, and which harnesses were left out."""
-    name, sample = one.unit.name, one.trial.sample
+    name, sample, late = one.unit.name, one.trial.sample, one.trial.late
     lines = [
         f"{name}: {sample.executed} killed by executions now, {sample.confirmed} of them"
-        " confirmed by CBMC"
+        " confirmed by CBMC",
+        f"{name}: {late.executed} killed by WP now, {late.confirmed} of them within full limits",
     ]
     lines += [
         f"{name}: {harness} is not executed: {why}"

@@ -43,6 +43,9 @@ LAST_PATIENCE = 4.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
 CONTRADICTION = "contradiction"
 CONFIRM = 50  # of so many mutants that executions kill CBMC is asked about one
+# Of so many mutants that WP kills one is asked about with the full limits: three provers, and more
+# than three minutes for each goal that cannot be proved.
+CONFIRM_WP = 10
 # A program that may take so many seconds of processor time.
 LIMITED = ("sh", "-c", 'ulimit -t "$0"; exec "$@"')
 # C allows no pointer for a number, nor one for another type's: who mixes them up is stillborn.
@@ -52,6 +55,7 @@ NO_MIXTURE = ("-Werror=int-conversion", "-Werror=incompatible-pointer-types")
 BY_CBMC, BY_WP, DRIVER = "judges by CBMC", "judges by WP", "driver"
 # A goal that is not proved within the limits above may be one that takes longer.
 UNDECIDED = "not proved in the short limit"
+SHORTLY = " (not proved in three times the time)"
 
 
 @dataclass(frozen=True)
@@ -78,10 +82,10 @@ class Trial:
     A mutant is tried first by executions of the harnesses on this machine, some of which CBMC is
     asked to confirm. Where they do not come to an end, CBMC is asked about the harness in which
     they did not. Then small harnesses try it, the one that killed most mutants of its function
-    before the others; then it is tried by the harnesses that compare its function with the
-    model, by the others that cover it, and by WP, which asks the function alone: what its callers
-    rely on is its contract, not its body. What is left are the harnesses that were too slow. Among
-    equals the one that is usually fastest comes first. A mutant whose reason to be none is accepted
+    before the others; then it is tried by WP, which asks the function alone: what its callers rely
+    on is its contract, not its body. What is left gets the harnesses themselves: those that compare
+    its function with the model before the others that cover it. Among equals the one that is
+    usually fastest comes first. A mutant whose reason to be none is accepted
     is tried by executions and small harnesses alone: they tell a wrong reason.
 
     All limits for CBMC are in processor time: what else the machine does changes no verdict.
@@ -130,6 +134,7 @@ class Trial:
         self._seen = {one.harness.name: one for one in linked}
         self._beside: dict[tuple[str, Path], str] = {}
         self.sample = Sample(confirm)
+        self.late = Sample(CONFIRM_WP)
         self._executions = (
             Executions(
                 unit,
@@ -226,8 +231,7 @@ class Trial:
     def _ask_engines(self, verdict: Verdict, unit: Unit, runner: Runner) -> None:
         """Ask each engine, or until one notices.
 
-        In the latter case CBMC has little time at first: some mutants that are very hard for it
-        are easy for WP.
+        In the latter case WP comes first: what the small harnesses left is slow for CBMC.
         """
         if "cbmc" in self._engines and self._killed_by_execution(verdict, unit, runner):
             return
@@ -241,16 +245,14 @@ class Trial:
         if verdict.mutant.identity in self._accepted:
             verdict.engines = dict.fromkeys(self._engines, "not asked: the reason is accepted")
             return
-        said: dict[str, str] = {}
         asked = self._engines
         if not self._every and asked == ["cbmc", "wp"]:
-            asked = ["cbmc", "wp", "cbmc"]
-        for number, engine in enumerate(asked):
-            last = engine not in asked[number + 1 :]
-            if verdict.engines.get(engine, NO_ANSWER) != NO_ANSWER:
+            asked = ["wp", "cbmc"]
+        for engine in asked:
+            if engine in verdict.engines:
                 continue
             if engine == "cbmc":
-                verdict.engines[engine] = self._by_cbmc(verdict.mutant, unit, runner, last, said)
+                verdict.engines[engine] = self._by_cbmc(verdict.mutant, unit, runner)
             else:
                 verdict.engines[engine] = self._by_wp(verdict.mutant, unit, runner)
             if verdict.engines[engine].startswith("killed"):
@@ -336,22 +338,18 @@ class Trial:
         done = runner.run([*self._tools.compiler, *options], merged=False)
         return done.output if done.status == 0 else None
 
-    def _by_cbmc(
-        self, mutant: Mutant, unit: Unit, runner: Runner, patient: bool, asked: dict[str, str]
-    ) -> str:
-        """Whether a harness that covers the function fails; `asked` has what each said."""
+    def _by_cbmc(self, mutant: Mutant, unit: Unit, runner: Runner) -> str:
+        """Whether a harness that covers the function fails."""
         covering = [one for one in self._ranked(mutant) if mutant.function in one.covers]
+        survived = True
         for original in covering:
-            if asked.get(original.name, NO_ANSWER) != NO_ANSWER:
-                continue
-            limit = self._limit(original) if patient else IMPATIENT
-            killed, complete = self._by_harness(original, unit, runner, limit)
+            killed, complete = self._by_harness(original, unit, runner, self._limit(original))
             if killed:
                 return killed
-            asked[original.name] = "survived" if complete else NO_ANSWER
-        if not asked:
-            return "no harness" if patient else NO_ANSWER
-        return NO_ANSWER if not patient or NO_ANSWER in asked.values() else "survived"
+            survived = survived and complete
+        if not covering:
+            return "no harness"
+        return "survived" if survived else NO_ANSWER
 
     def _by_harness(
         self, original: Harness, unit: Unit, runner: Runner, limit: float
@@ -487,12 +485,22 @@ class Trial:
         return self._asked(prover, target, stages)
 
     def _asked(self, prover: wp.Wp, target: targets.Target, stages: Sequence[wp.Stage]) -> str:
-        """What WP says, first within short limits: what is not proved then gets the full ones."""
+        """What WP says within a multiple of the time that the unchanged function needs.
+
+        One in CONFIRM_WP of those that it does not prove gets the full limits. If these prove one,
+        the limits say too little of the unit: then all get the full ones from there on, and the
+        run fails, as others were said to be killed before.
+        """
         problem = prover.first_problem(target, stages, self._allowed)
-        if problem and not self._patient:
+        if not problem:
+            return "survived"
+        if not self._patient:
             return f"{UNDECIDED}: {problem}"
-        problem = problem and prover.first_problem(target, wp.THOROUGH, self._allowed)
-        return f"killed: {problem}" if problem else "survived"
+        if not self.late.takes() and not self.late.contradictions:
+            return f"killed: {problem}{SHORTLY}"
+        proved = not prover.first_problem(target, wp.THOROUGH, self._allowed)
+        self.late.heard(not proved, f"{target.name}: {problem}")
+        return "survived" if proved else f"killed: {problem}"
 
 
 def limits(result: targets.Result, answers: Path) -> tuple[wp.Stage, ...]:
