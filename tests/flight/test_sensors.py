@@ -305,6 +305,17 @@ def test_turbulence_has_the_strength_that_was_asked_for() -> None:
     assert gusts.std(axis=0) == pytest.approx([1.0, 0.8, 0.5], rel=0.15)
 
 
+def test_a_place_wanders_smoothly() -> None:
+    """As far in five times the time as five times as far; and no farther in the end."""
+    rng = np.random.Generator(np.random.PCG64(4))
+    walk = sensors.Wander(rng, 3.0, 120.0, 0.1, 2, sensors.PLACE_SMOOTH_S)
+    places = np.array([walk.step(rng.standard_normal(2)) for _ in range(200_000)])
+    assert places.std() == pytest.approx(3.0, rel=0.15)
+    runs = {steps: (places[steps:] - places[:-steps]).std() for steps in (2, 10)}
+    assert runs[10] == pytest.approx(0.12, abs=0.02)  # 3 m over the root of 120 s times 5 s.
+    assert runs[2] == pytest.approx(runs[10] / 5.0, rel=0.1)
+
+
 def test_wind_is_weaker_near_the_ground() -> None:
     assert wind.sheared(10.0, 0.143) == 1.0
     assert wind.sheared(5.0, 0.143) == pytest.approx(0.9056, abs=1e-4)

@@ -51,6 +51,9 @@ FIELD_NOISE, FIELD_BIAS, FIELD_PER_AMPERE = 0.3, 0.3, 0.01  # In microtesla.
 WASH_M = 0.5  # Above the ground, where a third of the propellers' push on the barometer is left.
 PRESSURE_NOISE, PRESSURE_WANDER, PRESSURE_S = 1.5, 2.0, 100.0  # In Pa.
 PLACE_NOISE, PLACE_WANDER, PLACE_S, SPEED_NOISE = 0.03, 0.15, 120.0, 0.04  # In m, in m/s.
+# A receiver filters: at 3 m of wander its place runs from its speed by 0.12 m in a second and by a
+# fifth of it in a fifth of a second, as in PX4's sample_log_small.ulg (0.118 and 0.028 m).
+PLACE_SMOOTH_S = 5.0
 
 
 @dataclass
@@ -91,19 +94,29 @@ def turned(rng: np.random.Generator, most: float) -> Any:
 
 
 class Wander:
-    """A random walk that is drawn back to 0."""
+    """A random walk that is drawn back to 0, behind a low-pass if it is to be smooth."""
 
     def __init__(
-        self, rng: np.random.Generator, deviation: float, time_s: float, step_s: float, size: int
+        self,
+        rng: np.random.Generator,
+        deviation: float,
+        time_s: float,
+        step_s: float,
+        size: int,
+        smooth_s: float = 0.0,
     ) -> None:
         self._keep = math.exp(-step_s / time_s)
-        self._push = deviation * math.sqrt(1.0 - self._keep**2)
+        # The low-pass takes some of the deviation.
+        self._push = deviation * math.sqrt((1.0 - self._keep**2) * (1.0 + smooth_s / time_s))
+        self._follow = 1.0 - math.exp(-step_s / smooth_s) if smooth_s > 0.0 else 1.0
         self._state = deviation * rng.standard_normal(size)
+        self._smooth = self._state
 
     def step(self, drawn: Any) -> Any:
         """The next value, of standard normal numbers."""
         self._state = self._keep * self._state + self._push * drawn
-        return self._state
+        self._smooth = self._smooth + self._follow * (self._state - self._smooth)
+        return self._smooth
 
 
 def body_to_earth(roll: float, pitch: float, yaw: float) -> Any:
@@ -243,7 +256,7 @@ class Slow:
         self._per_ampere = per_ampere / np.linalg.norm(per_ampere)
         self._air = Wander(self._air_rng, quality.noise * PRESSURE_WANDER, PRESSURE_S, 0.02, 1)
         wander = quality.gps_noise * quality.gps_wander * PLACE_WANDER
-        self._place = Wander(self._gps_rng, wander, PLACE_S, 0.1, 2)
+        self._place = Wander(self._gps_rng, wander, PLACE_S, 0.1, 2, PLACE_SMOOTH_S)
         self._start = [float(value) for value in self._place.step(np.zeros(2))]
         self._late: deque[tuple[int, bytes]] = deque()
         self._pressures: deque[tuple[int, float, int]] = deque()

@@ -23,6 +23,7 @@ from keel.plants.plants import Airframe
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
 OVER_S = 2.0  # Nothing happens any more so long after its motors have stopped.
+BLIND_M_S = 3.0  # Without a place it lands as fast as the wind blows, and tips over at more.
 DECK_S = 8.0  # Since power-up: by then it has calibrated its gyroscopes at rest.
 HEALTHY = "no fault"
 TOOLS = ("tools/keel/flight", "tools/keel/plants", "tools/keel/base/plotting.py")
@@ -142,8 +143,8 @@ def ground_of(draw: Draw, plant: str, mode: str, fault: str) -> dict[str, float]
     }
 
 
-def wind_of(draw: Draw) -> dict[str, Any]:
-    """Up to 12 m/s, with a gust or two."""
+def wind_of(draw: Draw, most: float) -> dict[str, Any]:
+    """With a gust or two."""
     gusts = [
         {
             "at_s": draw.between(4.0, 25.0),
@@ -153,7 +154,7 @@ def wind_of(draw: Draw) -> dict[str, Any]:
         for _ in range(draw.one_of((0, 1, 2)))
     ]
     return {
-        "speed": draw.between(0.0, 12.0),
+        "speed": draw.between(0.0, most),
         "from_deg": draw.between(0.0, 360.0),
         "turbulence": draw.between(0.0, 0.2),
         "shear": draw.between(0.0, 0.2),
@@ -196,10 +197,10 @@ def scenario_of(draw: Draw, plant: str, iron: Sequence[float]) -> Scenario:
             "mode": mode,
             "heading_deg": draw.between(0.0, 360.0),
             "radio_hz": draw.one_of((50, 111)),
-            "battery_left": draw.between(0.32, 1.0),  # With less it is not armed.
+            "battery_left": draw.between(0.36, 1.0),  # With less it is not armed.
             "battery_resistance": draw.between(1.0, 2.5),
             "stick_way": draw.between(0.9, 1.2),
-            "wind": wind_of(draw),
+            "wind": wind_of(draw, BLIND_M_S if told == "gps_loss" else 12.0),
             "ground": ground_of(draw, plant, mode, told),
             "parameters": calibrated(draw, iron),
             "pilot": hands,
