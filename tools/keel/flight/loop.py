@@ -29,7 +29,7 @@ from keel.flight.receivers import RADIO, RADIO_LINES, Receiver
 from keel.flight.scenario import Quality, Scenario
 from keel.flight.sensors import Broken, Inertial, Slow
 from keel.plants import plants, wind
-from keel.plants.plants import Airframe, Ground, Plant, Truth
+from keel.plants.plants import Airframe, Plant, Truth
 from keel.plants.power import RESISTANCE, Battery
 
 ROW_MS = 5  # A row of the trace.
@@ -154,8 +154,9 @@ class Flight:
         seeds = np.random.SeedSequence(order.seed).spawn(4)
         rng = [np.random.Generator(np.random.PCG64(seed)) for seed in seeds]
         airframe = airframe_of(order)
-        ground = Ground(**scenario.ground.model_dump())
-        self._plant: Plant = plants.make(order.plant, airframe, scenario.heading_deg, ground)
+        self._plant: Plant = plants.make(
+            order.plant, airframe, scenario.heading_deg, scenario.plane
+        )
         self._battery = Battery(
             left=scenario.battery_left, resistance=RESISTANCE * scenario.battery_resistance
         )

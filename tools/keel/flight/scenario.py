@@ -25,6 +25,7 @@ from keel.config import (
     place_of,
     refusal,
 )
+from keel.plants.plants import Ground as Plane
 
 FOLDER = ROOT / "examples/copter/scenarios"
 
@@ -379,6 +380,11 @@ class Scenario(Table):
         return any(fault.kind in CARD_FAULTS for fault in self.fault)
 
     @property
+    def plane(self) -> Plane:
+        """The ground as a plant takes it."""
+        return Plane(**self.ground.model_dump())
+
+    @property
     def rises_m(self) -> float:
         """How high it must be at some time: upper limits hold on the ground, too."""
         if self.limits.rises_m is not None:
@@ -395,8 +401,7 @@ def mistakes(scenario: Scenario) -> Iterator[Mistake]:
         for number, at_s in enumerate(begins):
             if at_s > scenario.duration_s:
                 yield (key, number, "at_s"), f"is after duration_s, {scenario.duration_s}"
-    ground = scenario.ground
-    if "jsbsim" in scenario.plants and (ground.slope_deg or ground.heave_m or ground.roll_deg):
+    if "jsbsim" in scenario.plants and not scenario.plane.is_level:
         yield ("plants",), 'JSBSim has level ground only: say plants = ["mujoco"]'
     for number, (before, after) in enumerate(zip(times, times[1:], strict=False)):
         if after < before:
