@@ -4,6 +4,8 @@
 
 #include "keel/middleware/range.h"
 
+#include <math.h>
+
 /* A landing without a height: thrust, in parts of what hovers, for a speed that is off by 1 m/s;
  * what is added to it in a run of 10 ms; and the most of that. */
 #define SINK_GAIN     0.1f
@@ -12,6 +14,9 @@
 
 /* With a smaller cosine of the tilt, thrust does not grow any more: it would not carry. */
 #define TILT_LEAST 0.5f
+
+#define SETTLES 0.14f /* The sine of the tilt that it keeps on the ground: 8 degrees. */
+#define BRAKES  2.0f  /* What it comes to a stop with, in wind, too; in m/s^2. */
 
 keel_status_t copter_control_init(copter_control_t *control)
 {
@@ -64,22 +69,31 @@ static uint8_t mode_of_axes(const copter_t *copter)
     return mode;
 }
 
-/* Where it comes to a stop from here. */
+/* Where it comes to a stop from here. A place that is nearer than it can brake would be flown back
+ * to, and a landing would come down on the way. */
 static keel_cascade_vector_t stop_of(const keel_cascade_estimate_t *here)
 {
-    const float stop_s = copter_settings.stop_s;
+    const float speed = sqrtf((here->velocity.north * here->velocity.north) +
+                              (here->velocity.east * here->velocity.east));
+    const float brakes_s = speed / (2.0f * BRAKES);
+    const float stop_s = (brakes_s > copter_settings.stop_s) ? brakes_s : copter_settings.stop_s;
 
     return (keel_cascade_vector_t){.north = here->position.north + (here->velocity.north * stop_s),
                                    .east = here->position.east + (here->velocity.east * stop_s),
-                                   .up = here->position.up + (here->velocity.up * stop_s)};
+                                   .up = here->position.up +
+                                         (here->velocity.up * copter_settings.stop_s)};
 }
 
-/* When a state begins, the place to be held is where it is; on the way home, home. */
+/* When a state begins, the place to be held is where it comes to a stop; on the way home, home. A
+ * landing that ends a return is at home; one that breaks it off is not, or it would come down on
+ * the way. */
 static void begin_state(copter_control_t *self, const copter_t *copter)
 {
     const uint8_t state = copter->state.mode.state;
     const keel_cascade_vector_t stop = stop_of(&copter->estimate.here);
-    const bool was_returning = self->state == KEEL_MODE_RETURNING;
+    const bool is_at_home = (copter->state.mode.settled & KEEL_MODE_AT_HOME) != 0u;
+    const bool ends_return = (self->state == KEEL_MODE_RETURNING) && (state == KEEL_MODE_LANDING) &&
+                             is_at_home;
 
     if ((state == self->state) && (copter->state.mode.mode == self->mode)) {
         return;
@@ -88,10 +102,10 @@ static void begin_state(copter_control_t *self, const copter_t *copter)
         self->place = (keel_cascade_vector_t){
             0.0f, 0.0f,
             (stop.up > copter_settings.return_height) ? stop.up : copter_settings.return_height};
-    } else if (!was_returning || (state != KEEL_MODE_LANDING)) {
+    } else if (!ends_return) {
         self->place = stop;
     } else {
-        /* A landing that ends a return is at home. */
+        /* It stays home. */
     }
     self->state = state;
     self->mode = copter->state.mode.mode;
@@ -205,7 +219,8 @@ void copter_position_control(copter_control_t *self, const copter_t *copter)
 }
 
 /* The sticks' angles, where they say them. What touches the ground stays as it stands, so that it
- * comes to lie on a slope while the motors still carry most of it. */
+ * comes to lie on a slope while the motors still carry most of it; but it does not go on leaning
+ * against the wind, or it would fall over to the other side when they stop. */
 static keel_cascade_tilt_t asked_tilt(const copter_control_t *self, const copter_pilot_t *pilot,
                                       const copter_t *copter)
 {
@@ -216,7 +231,8 @@ static keel_cascade_tilt_t asked_tilt(const copter_control_t *self, const copter
         return (keel_cascade_tilt_t){.roll = asked->roll, .pitch = asked->pitch};
     }
     if (copter->estimate.touches) {
-        return (keel_cascade_tilt_t){.roll = down.y, .pitch = -down.x};
+        return (keel_cascade_tilt_t){.roll = keel_range_clamp(down.y, -SETTLES, SETTLES),
+                                     .pitch = -keel_range_clamp(down.x, -SETTLES, SETTLES)};
     }
     return self->cascade.tilt;
 }
