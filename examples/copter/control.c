@@ -90,7 +90,6 @@ static keel_cascade_vector_t stop_of(const keel_cascade_estimate_t *here)
 static void begin_state(copter_control_t *self, const copter_t *copter)
 {
     const uint8_t state = copter->state.mode.state;
-    const keel_cascade_vector_t stop = stop_of(&copter->estimate.here);
     const bool is_at_home = (copter->state.mode.settled & KEEL_MODE_AT_HOME) != 0u;
     const bool ends_return = (self->state == KEEL_MODE_RETURNING) && (state == KEEL_MODE_LANDING) &&
                              is_at_home;
@@ -98,14 +97,15 @@ static void begin_state(copter_control_t *self, const copter_t *copter)
     if ((state == self->state) && (copter->state.mode.mode == self->mode)) {
         return;
     }
+    if (!ends_return) {
+        self->place = stop_of(&copter->estimate.here);
+    }
     if (state == KEEL_MODE_RETURNING) {
-        self->place = (keel_cascade_vector_t){
-            0.0f, 0.0f,
-            (stop.up > copter_settings.return_height) ? stop.up : copter_settings.return_height};
-    } else if (!ends_return) {
-        self->place = stop;
-    } else {
-        /* It stays home. */
+        self->place.north = 0.0f;
+        self->place.east = 0.0f;
+        self->place.up = (self->place.up > copter_settings.return_height)
+                             ? self->place.up
+                             : copter_settings.return_height;
     }
     self->state = state;
     self->mode = copter->state.mode.mode;
