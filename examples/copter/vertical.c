@@ -179,13 +179,14 @@ static bool pushes_little(const copter_t *copter)
 }
 
 /* It has landed when a descent is asked for and does not happen, though the motors push less than
- * its weight. From then on it stands until it moves or the motors push. */
+ * its weight. From then on it stands until it moves or the motors push. Idling motors shake it in
+ * such a way that no filter takes it for calm; but then they do not carry it. */
 static bool is_landed(const copter_t *copter)
 {
     const copter_estimate_t *const estimate = &copter->estimate;
 
     return !copter->state.mode.motors || estimate->vertical.is_crashed ||
-           (is_calm(copter) && pushes_little(copter) &&
+           ((is_calm(copter) || estimate->rests) && pushes_little(copter) &&
             (estimate->is_landed || is_let_down(copter)));
 }
 

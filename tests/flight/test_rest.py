@@ -35,7 +35,7 @@ end = { state = "disarmed" }
 """
 G = 9.80665
 CAUGHT_M, IDLE = 6.0, 0.1  # It is caught on its way down; motors that turn so do not carry it.
-HANDS_MS = 300  # So long after its motors idle the hand lets go.
+HANDS_MS = 60  # So long after its motors idle the hand lets go: before it has landed for a second.
 
 
 class Caught:
