@@ -61,27 +61,26 @@ typedef struct copter_settings {
     keel_mode_config_t mode;
     keel_cascade_config_t cascade;
     keel_mixer_config_t mixer;
-    uint32_t load_limit_ppm; /**< The greatest load with which it may be armed. */
-    float level;             /**< The least cosine of the tilt with which it may be armed. */
-    float ground_least;      /**< The least pressure with which it may be armed, in Pa: not below
+    uint32_t load_limit_ppm;   /**< The greatest load with which it may be armed. */
+    float level;               /**< The least cosine of the tilt with which it may be armed. */
+    float ground_least;        /**< The least pressure with which it may be armed, in Pa: not below
                                   half of the greatest, or an MS5607 may be taken for an MS5611. */
-    float ground_most;       /**< The greatest pressure with which it may be armed, in Pa. */
-    float landed_rate;       /**< Less than this on the ground, in rad/s. */
-    float
-        landed_acceleration; /**< Less than this on the ground, forwards and sideways, in m/s^2. */
-    float landed_speed;      /**< Less than this on the ground, up or down, in m/s. */
-    float home_radius;       /**< Within this of home, to either side, it is there, in m. */
-    float return_height;     /**< At least so high on the way home, in m. */
-    float land_fast;         /**< Landing, from high above, in m/s. */
-    float land_slow;         /**< Landing, near the ground, in m/s. */
-    float land_near;         /**< Below this height the ground is near, in m. */
-    float height_accuracy;   /**< Of a receiver's height, at worst, in m. */
-    float stop_s;            /**< How far it goes on when the sticks are let go: in s. */
-    float fence_margin;      /**< The pilot comes so near to the fence, in m. */
-    float fence_rate;        /**< Of the way that is left, so much a second, in 1/s. */
-    bool safety_switch;      /**< The board's safety switch is used: at safe it does not arm. */
-    bool buzzer;             /**< The board's buzzer sounds. */
-    uint8_t system;          /**< Its number among the vehicles that MAVLink connects. */
+    float ground_most;         /**< The greatest pressure with which it may be armed, in Pa. */
+    float landed_rate;         /**< Less than this on the ground, in rad/s. */
+    float landed_acceleration; /**< Less than this on the ground, along it, in m/s^2. */
+    float landed_speed;        /**< Less than this on the ground, up or down, in m/s. */
+    float home_radius;         /**< Within this of home, to either side, it is there, in m. */
+    float return_height;       /**< At least so high on the way home, in m. */
+    float land_fast;           /**< Landing, from high above, in m/s. */
+    float land_slow;           /**< Landing, near the ground, in m/s. */
+    float land_near;           /**< Below this height the ground is near, in m. */
+    float height_accuracy;     /**< Of a receiver's height, at worst, in m. */
+    float stop_s;              /**< How far it goes on when the sticks are let go: in s. */
+    float fence_margin;        /**< The pilot comes so near to the fence, in m. */
+    float fence_rate;          /**< Of the way that is left, so much a second, in 1/s. */
+    bool safety_switch;        /**< The board's safety switch is used: at safe it does not arm. */
+    bool buzzer;               /**< The board's buzzer sounds. */
+    uint8_t system;            /**< Its number among the vehicles that MAVLink connects. */
 } copter_settings_t;
 
 /** A quadcopter of 1.4 kg: the F450 that JSBSim comes with. */

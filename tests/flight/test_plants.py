@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import pytest
 
 from keel.base.errors import ToolError
+from keel.flight import loop
 from keel.plants import plants
 from keel.plants.plants import Airframe, Ground, Plant, Truth
 
@@ -169,3 +170,22 @@ def test_a_deck_carries_it_up_and_down_and_rolls_it_and_ends_level() -> None:
 def test_jsbsim_has_no_slope() -> None:
     with pytest.raises(ToolError, match="level ground only"):
         plants.make("jsbsim", Airframe(), 0.0, Ground(slope_deg=5.0))
+
+
+def test_speed_controllers_begin_late() -> None:
+    told = loop.delayed(Airframe(esc_ms=3))
+    heard = []
+    for number in range(1, 7):
+        told.append([float(number)] * 4)
+        heard.append(told[0][0])
+    assert heard == [0.0, 0.0, 0.0, 1.0, 2.0, 3.0]
+
+
+@BOTH
+def test_wind_does_not_move_what_stands(name: str) -> None:
+    """Legs are no wheels: 10 m/s push with less than a fifth of what friction holds."""
+    plant = made(name)
+    before = plant.truth().place
+    plant.blow(10.0, 0.0, 0.0)
+    after = run(plant, [0.0] * 4, 3000).place
+    assert math.dist(before, after) < 0.02

@@ -32,6 +32,7 @@ FOOT = 0.3048
 LEGS_M = 0.1524 - 0.0015  # Of the centre of gravity above the ground, the springs pressed.
 SETTLING = 1200  # Steps: it sinks onto its legs, and its magnetometer takes the place's field.
 FLUSH = ctypes.CDLL(None).fflush
+WHEELS, SKIDS = 'type="BOGEY"', 'type="STRUCTURE"'
 COMMANDS = ("FR", "AR", "AL", "FL")
 # JSBSim's own reader says on stdout that it is told something twice.
 jsbsim.FGJSBBase().debug_lvl = 0  # type: ignore[no-untyped-call]
@@ -165,7 +166,10 @@ def described(airframe: Airframe) -> Path:
     (folder / "systems").symlink_to(own / "systems")
     frame = folder / "aircraft/F450"
     gear = frame / "Gear.xml"
-    gear.write_text(gear.read_text().replace('type="BOGEY"', 'type="STRUCTURE"'))
+    legs = gear.read_text()
+    if WHEELS not in legs:
+        raise ToolError(f"{gear.name} of JSBSim's F450 has no {WHEELS}")
+    gear.write_text(legs.replace(WHEELS, SKIDS))
     scaled(frame / "Mass.xml", frame / "Mass.xml", r'<emptywt unit="KG">', airframe.mass)
     for axis, metres in (("x", -airframe.forward_m), ("y", airframe.right_m)):  # x points aft.
         moved(frame / "Mass.xml", rf'<location name="CG" unit="M">.*?<{axis}>', metres)
