@@ -273,12 +273,15 @@ def lines_of(*patterns: str) -> int:
     return sum(path.read_bytes().count(b"\n") for path in files if path.suffix == ".py")
 
 
+NOT_OURS = ("build", "__pycache__", ".mypy_cache", ".ruff_cache")
+
+
 @cache
 def tree(folder: Path) -> tuple[Path, ...]:
     """The files below a folder, without what is built, fetched or hidden."""
     found: list[Path] = []
     for path in folder.iterdir():
-        if path.name in ("build", "__pycache__") or path.name.startswith(".git"):
+        if path.name in NOT_OURS or path.name.startswith(".git"):
             continue
         found += tree(path) if path.is_dir() and not path.is_symlink() else [path]
     return tuple(found)

@@ -137,25 +137,22 @@ class Order(TrialCase):
         with self.trial._trees.with_mutant(self.mutant(), self.root) as tree:
             self.assertTrue((tree / "specs/model/box.h").is_file())
 
-    def test_who_answered_is_not_asked_again(self) -> None:
+    def test_each_that_covers_is_asked_once_and_one_without_an_answer_leaves_it_open(self) -> None:
         asked: list[str] = []
 
         def check(_self: cbmc.Cbmc, harness: Any, *_: object) -> cbmc_answers.Answer:
             asked.append(harness.name)
             return cbmc_answers.Answer([], [], [], complete="slow" not in harness.name)
 
-        said: dict[str, str] = {}
         runner = jobs.Runner({}, self.root)
         with (
             mock.patch.object(cbmc.Cbmc, "check", check),
             mock.patch.object(cbmc.Cbmc, "build", lambda *_: (Path("x"), "")),
         ):
-            first = self.trial._by_cbmc(self.mutant(), self.unit, runner, False, said)
-            begun = len(asked)
-            last = self.trial._by_cbmc(self.mutant(), self.unit, runner, True, said)
-        self.assertEqual((first, last), (NO_ANSWER, NO_ANSWER))
-        self.assertEqual(begun, 5)
-        self.assertEqual(asked[begun:], ["keel_box_put__slow_harness"])
+            said = self.trial._by_cbmc(self.mutant(), self.unit, runner)
+        self.assertEqual(said, NO_ANSWER)
+        self.assertEqual(len(set(asked)), 5)
+        self.assertEqual(len(asked), 5)
 
     def test_a_limit_is_of_processor_time(self) -> None:
         runner = jobs.Runner({"PATH": os.environ["PATH"]}, self.root)
