@@ -287,8 +287,8 @@ def ended(scenario: Scenario, trace: Trace) -> Iterator[Finding]:
         yield Finding("ends on the ground", f"{above:.2f} m up", f"{GROUND_M:g} m", low)
     if end.upright:
         tilt = max(abs(roll), abs(pitch))
-        limit = UPRIGHT_DEG + scenario.ground.slope_deg
-        yield Finding("ends upright", f"{tilt:.1f} deg", f"{limit:g} deg", tilt <= limit)
+        most_deg = UPRIGHT_DEG + scenario.ground.slope_deg
+        yield Finding("ends upright", f"{tilt:.1f} deg", f"{most_deg:g} deg", tilt <= most_deg)
     turns = bool(view["motors_on"])
     told = {True: "motors turn", False: "motors stand"}
     yield Finding("ends with", told[turns], told[end.motors_on], turns == end.motors_on)
