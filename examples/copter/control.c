@@ -218,9 +218,9 @@ void copter_position_control(copter_control_t *self, const copter_t *copter)
     }
 }
 
-/* The sticks' angles, where they say them. What touches the ground stays as it stands, so that it
- * comes to lie on a slope while the motors still carry most of it; but it does not go on leaning
- * against the wind, or it would fall over to the other side when they stop. */
+/* The sticks' angles, where they say them. An aircraft that touches the ground stays as it stands,
+ * so that it comes to lie on a slope while the motors still carry most of it; but it does not go on
+ * leaning against the wind, or it would fall over to the other side when they stop. */
 static keel_cascade_tilt_t asked_tilt(const copter_control_t *self, const copter_pilot_t *pilot,
                                       const copter_t *copter)
 {

@@ -14,12 +14,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from plant_through import Through
 from pymavlink.dialects.v20 import common as mavlink
 from test_telemetry import Rig, armed, value_in
 
 from keel.flight.library import Copter, checks_of
 from keel.flight.sensors import body_to_earth
-from keel.plants.plants import Plant, Truth
 
 ACCEPTED, REJECTED, UNSUPPORTED = 0, 1, 3
 PREFLIGHT_CALIBRATION, ARM = 241, 400
@@ -29,10 +29,10 @@ TURNS = "not calibrated: it turns, or iron moves nearby"
 
 
 @dataclass
-class Turntable:
-    """A plant that stands in the middle of a turntable, which turns to the right."""
+class Turntable(Through):
+    """A plant that stands in the middle of a turntable, which turns to the right. Nobody asks for
+    its heading."""
 
-    plant: Plant
     rate: float = 0.0  # In rad/s.
     angle: float = 0.0
 
@@ -51,14 +51,6 @@ class Turntable:
         x, y, z = self.plant.field()
         cos, sin = math.cos(self.angle), math.sin(self.angle)
         return (x * cos + y * sin, y * cos - x * sin, z)
-
-    def pressure(self) -> float:
-        """As it was."""
-        return self.plant.pressure()
-
-    def truth(self) -> Truth:
-        """As it was, but for the heading, which nobody asks for."""
-        return self.plant.truth()
 
     def blow(self, north: float, east: float, down: float) -> None:
         """There is no wind."""
@@ -216,10 +208,12 @@ def test_iron_that_is_too_near_is_told(copter: Copter) -> None:
 
 
 @dataclass
-class Held:
-    """A plant that is held in some way, and its sensors' board is mounted in another."""
+class Held(Through):
+    """A plant that is held in some way, and its sensors' board is mounted in another.
 
-    plant: Plant
+    The magnetometer is mounted elsewhere, and sees what the plant does.
+    """
+
     mounted: Any  # The matrix that turns what sensors see into the vehicle's axes.
     up: tuple[float, float, float] = (0.0, 0.0, -1.0)  # Which of the vehicle's axes points up.
     shaken: bool = False
@@ -235,18 +229,6 @@ class Held:
         shake = 3.0 * math.sin(self.now_ms / 50.0) if self.shaken else 0.0
         seen = np.transpose(self.mounted) @ ((G + shake) * np.array(self.up))
         return (*(float(one) for one in seen), 0.0, 0.0, 0.0)
-
-    def field(self) -> Sequence[float]:
-        """As it was: the magnetometer is mounted elsewhere."""
-        return self.plant.field()
-
-    def pressure(self) -> float:
-        """As it was."""
-        return self.plant.pressure()
-
-    def truth(self) -> Truth:
-        """As it was."""
-        return self.plant.truth()
 
     def blow(self, north: float, east: float, down: float) -> None:
         """There is no wind."""

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plant_through import Through
 
 from keel.flight import loop, scenario
 from keel.flight.library import Copter, states
 from keel.flight.loop import Order
 from keel.plants import plants
 from keel.plants.mujoco_plant import MujocoPlant
-from keel.plants.plants import Truth
 
 LANDS = """description = "lands"
 duration_s = 30.0
@@ -38,11 +38,12 @@ CAUGHT_M, IDLE = 6.0, 0.1  # It is caught on its way down; motors that turn so d
 HANDS_MS = 60  # So long after its motors idle the hand lets go: before it has landed for a second.
 
 
-class Caught:
+class Caught(Through):
     """A plant that a hand catches once, at a height on the way down, and lets go of again."""
 
     def __init__(self, plant: MujocoPlant) -> None:
-        self.plant = plant
+        super().__init__(plant)
+        self.moving = plant  # As MuJoCo has it: its speed can be taken from it.
         self.highest = 0.0
         self.holds, self.held_ms, self.idle_ms, self.let_go = False, 0, 0, False
 
@@ -52,7 +53,7 @@ class Caught:
         self.highest = max(self.highest, truth.place[2])
         if not self.let_go and self.highest > 7.0 and truth.place[2] < CAUGHT_M:
             self.holds = True
-            self.plant._velocity[:] = 0.0  # The hand took its speed.
+            self.moving._velocity[:] = 0.0  # The hand took its speed.
         if not self.holds:
             self.plant.step(motors)
             return
@@ -76,22 +77,6 @@ class Caught:
             0.0,
         )
 
-    def field(self) -> Sequence[float]:
-        """As it is there."""
-        return self.plant.field()
-
-    def pressure(self) -> float:
-        """As it is there."""
-        return self.plant.pressure()
-
-    def truth(self) -> Truth:
-        """Where it is."""
-        return self.plant.truth()
-
-    def blow(self, north: float, east: float, down: float) -> None:
-        """The wind."""
-        self.plant.blow(north, east, down)
-
 
 def test_what_is_caught_idles_and_what_falls_flies(
     copter: Copter, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -111,7 +96,7 @@ def test_what_is_caught_idles_and_what_falls_flies(
     assert plant.let_go and plant.held_ms < 3000
     lands = trace.column("time") > 12.0
     up, speed = trace.column("up")[lands], trace.column("v_up")[lands]
-    # What falls for 0.35 s has 3.4 m/s; a little later the motors have it again.
+    # A fall of 0.35 s gives 3.4 m/s; a little later the motors have it again.
     assert -4.0 < speed.min() < -1.0
     assert up[np.argmin(speed)] > CAUGHT_M - 1.5
     assert np.abs(speed[up < 0.1]).max() < 1.0

@@ -23,7 +23,7 @@ from keel.plants.plants import Airframe
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
 OVER_S = 2.0  # Nothing happens any more so long after its motors have stopped.
-BLIND_M_S = 3.0  # Without a place it lands as fast as the wind blows, and tips over at more.
+BLIND_M_S = 3.0  # Without a place it lands as fast as the wind blows, and may tip over at more.
 DECK_S = 8.0  # Since power-up: by then it has calibrated its gyroscopes at rest.
 HEALTHY = "no fault"
 TOOLS = ("tools/keel/flight", "tools/keel/plants", "tools/keel/base/plotting.py")
