@@ -11,6 +11,7 @@ import pytest
 from keel.base.errors import ToolError
 from keel.flight import loop
 from keel.plants import plants
+from keel.plants.jsbsim_plant import on_skids
 from keel.plants.plants import Airframe, Ground, Plant, Truth
 
 HOVER = 0.41
@@ -179,6 +180,22 @@ def test_speed_controllers_begin_late() -> None:
         told.append([float(number)] * 4)
         heard.append(told[0][0])
     assert heard == [0.0, 0.0, 0.0, 1.0, 2.0, 3.0]
+
+
+@pytest.mark.parametrize("from_deg", range(0, 360, 45))
+def test_wind_does_not_blow_it_over(from_deg: int) -> None:
+    """Its skids are 0.10 m away from its centre of mass on every side, which is 0.15 m above them:
+    it takes two thirds of its weight. Over an edge between three legs three tenths did."""
+    plant = made("jsbsim", 0.0, Airframe(drag=2.0))
+    way = math.radians(from_deg)
+    plant.blow(16.0 * math.cos(way), 16.0 * math.sin(way), 0.0)
+    roll, pitch, _ = run(plant, [0.05] * 4, 2500).angles
+    assert max(abs(roll), abs(pitch)) < math.radians(1.0)
+
+
+def test_legs_that_are_not_those_known_are_refused() -> None:
+    with pytest.raises(ToolError, match="Gear.xml of JSBSim's F450 has no"):
+        on_skids("Gear.xml", '<contact name="Front_Left" type="BOGEY"></contact>')
 
 
 @BOTH

@@ -334,12 +334,12 @@ def test_axes_feel_each_other() -> None:
     assert np.abs(felt[:, 2:]).max() == 0.0  # Gravity is along z alone, and nothing turns.
 
 
-def field_of(quality: Quality) -> Any:
-    """What the magnetometer says at rest."""
+def field_of(quality: Quality, ampere: float = 0.0) -> Any:
+    """What the magnetometer says at rest, with this current."""
     there = memory()
     devices = Slow(there, np.random.SeedSequence(3), quality)
     for now in range(1, 101):
-        devices.step(now, Still(), Battery(voltage=16.0, current=0.0), Broken())
+        devices.step(now, Still(), Battery(voltage=16.0, current=ampere), Broken())
     return there["magnetometer"]["field"].copy()
 
 
@@ -348,6 +348,12 @@ def test_iron_adds_to_the_field() -> None:
     irons = quiet.model_copy(update={"iron": [40.0, -25.0, 3.0]})
     moved = field_of(irons) - field_of(quiet)
     assert moved.tolist() == pytest.approx([40.0, -25.0, 3.0], abs=1e-4)
+
+
+def test_wires_add_to_the_field_as_their_current_does() -> None:
+    wired = Quality(noise=0.0, bias=0.0, field_noise=0.0, field_per_ampere=0.0, wires=[0.3, -1, 2])
+    moved = field_of(wired, 20.0) - field_of(wired)
+    assert moved.tolist() == pytest.approx([6.0, -20.0, 40.0], abs=1e-4)
 
 
 @pytest.mark.parametrize(("above_m", "pascal"), [(0.0, 8.0), (0.5, 8.0 / math.e), (20.0, 0.0)])

@@ -21,6 +21,7 @@ typedef struct box {
     uint32_t depth;
     float weight;
     uint32_t side[4];
+    uint32_t lid[BOX_LIDS];
     uint32_t *owner;
 } box_t;
 typedef enum colour {
@@ -28,6 +29,8 @@ typedef enum colour {
     BOX_GREEN,
     BOX_BLUE
 } colour_t;
+#define BOX_LIDS 8u
+
 #define BOX_STAGE_OPEN 0u /**< Open. */
 #define BOX_STAGE_SHUT 1u
 #define LID_KIND_FLAT 3u
@@ -66,10 +69,21 @@ class Beyond(unittest.TestCase):
     """Slips that show beyond a bound alone."""
 
     def test_an_index_comes_round(self) -> None:
-        found = beyond("p->side[a] = p->side[2];", 128)
-        self.assertEqual(found, ["p->side[a % 128u] = p->side[2];"])
+        found = beyond("p->owner[a] = p->side[2];", 128)
+        self.assertEqual(found, ["p->owner[a % 128u] = p->side[2];"])
         self.assertEqual(beyond("p->side[BOX_RED] = 1u;", 128), [])
         self.assertEqual(beyond("p->side[a] = 1u;"), [])
+
+    def test_an_index_reaches_no_number_beyond_its_array(self) -> None:
+        self.assertEqual(beyond("p->side[a] = 1u;", 4, 8), [])
+        self.assertEqual(beyond("p->side[a] = 1u;", 2), ["p->side[a % 2u] = 1u;"])
+        self.assertEqual(beyond("p->lid[a] = 1u;", 4), ["p->lid[a % 4u] = 1u;"])
+        self.assertEqual(beyond("p->lid[a] = 1u;", 8), [])
+
+    def test_what_counts_an_index_may_come_to_the_length(self) -> None:
+        loop = "for (int i = 0; i < 9; i++) { p->side[i] = 1u; }"
+        self.assertEqual(beyond(loop, 8), [])
+        self.assertEqual(len(beyond(loop, 4)), 4)
 
     def test_a_size_comes_round_and_a_comparison_changes(self) -> None:
         self.assertEqual(
@@ -102,7 +116,7 @@ class Beyond(unittest.TestCase):
         )
 
     def test_no_slip_has_a_block_of_its_own(self) -> None:
-        body = "for (int i = 0; i < a; i++) { if (i > 3) { p->side[i] = 1u; } }"
+        body = "for (int i = 0; i < a; i++) { if (i > 3) { p->owner[i] = 1u; } }"
         made_ones = beyond(body, 8)
         self.assertGreater(len(made_ones), 8)
         self.assertTrue(all(one.count("{") == body.count("{") for one in made_ones))

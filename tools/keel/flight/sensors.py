@@ -254,6 +254,7 @@ class Slow:
         self._field_bias = own_bias + np.array(quality.iron)
         per_ampere = self._field_rng.uniform(-1.0, 1.0, 3)
         self._per_ampere = per_ampere / np.linalg.norm(per_ampere)
+        self._wires = np.array(quality.wires)
         self._air = Wander(self._air_rng, quality.noise * PRESSURE_WANDER, PRESSURE_S, 0.02, 1)
         wander = quality.gps_noise * quality.gps_wander * PLACE_WANDER
         self._place = Wander(self._gps_rng, wander, PLACE_S, 0.1, 2, PLACE_SMOOTH_S)
@@ -284,7 +285,7 @@ class Slow:
     def _magnetometer(self, plant: Plant, battery: Battery, broken: Broken) -> None:
         quality = self._quality
         noise = quality.field_noise * FIELD_NOISE * self._field_rng.standard_normal(3)
-        own = quality.field_per_ampere * FIELD_PER_AMPERE * self._per_ampere
+        own = quality.field_per_ampere * FIELD_PER_AMPERE * self._per_ampere + self._wires
         along = self._per_ampere if broken.along is None else np.array(broken.along)
         per_ampere = own + broken.microtesla_per_ampere * along
         bias = self._field_bias + battery.current * per_ampere

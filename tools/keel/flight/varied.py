@@ -23,7 +23,7 @@ from keel.plants.plants import Airframe
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
 DURATION_S = 80.0
 OVER_S = 2.0  # Nothing happens any more so long after its motors have stopped.
-BLIND_M_S = 3.0  # Without a place it lands as fast as the wind blows, and may tip over at more.
+BLIND_M_S = 5.0  # Without a place it lands as fast as the wind blows, and may tip over at 7 m/s.
 DECK_S = 8.0  # Since power-up: by then it has calibrated its gyroscopes at rest.
 HEALTHY = "no fault"
 TOOLS = ("tools/keel/flight", "tools/keel/plants", "tools/keel/base/plotting.py")
@@ -85,7 +85,7 @@ def order_of(seed: int) -> Order:
         right_m=draw.between(-0.01, 0.01),
         esc_ms=draw.one_of((0, 1, 2, 4, 8)),
     )
-    iron = iron_of(draw)
+    iron, wires = any_way(draw, 3.0, 115.0), any_way(draw, 0.1, 1.0)
     gps_noise = draw.factor(2.0)
     quality = Quality(
         noise=draw.factor(2.0),
@@ -99,28 +99,29 @@ def order_of(seed: int) -> Order:
         scale=draw.between(0.0, 0.03),
         cross_axis=draw.between(0.0, 0.01),
         iron=iron,
+        wires=wires,
         wash=draw.between(0.0, 20.0),
         warmth=draw.between(0.0, 0.02),
         shaking=shaking_of(draw),
         field_noise=draw.between(1.0, 7.0),
-        field_per_ampere=draw.between(1.0, 10.0),
     )
-    return Order(scenario_of(draw, plant, iron), plant, seed, airframe, quality)
+    found = calibrated(draw, iron, wires)
+    return Order(scenario_of(draw, plant, found), plant, seed, airframe, quality)
 
 
-def iron_of(draw: Draw) -> list[float]:
-    """What magnets and iron near the magnetometer add, in microtesla, in any direction."""
+def any_way(draw: Draw, least: float, most: float) -> list[float]:
+    """A vector of a length between these, in any direction."""
     way = [draw.between(-1.0, 1.0) for _ in range(3)]
-    amount = draw.between(3.0, 115.0) / max(0.1, math.hypot(*way))
-    return [round(amount * part, 2) for part in way]
+    amount = draw.between(least, most) / max(0.1, math.hypot(*way))
+    return [round(amount * part, 3) for part in way]
 
 
-def calibrated(draw: Draw, iron: Sequence[float]) -> dict[str, float]:
-    """What the pilot's calibration found of it: to a microtesla."""
-    return {
-        f"MAG_OFF_{axis}": round(part + draw.between(-1.0, 1.0), 2)
-        for axis, part in zip("XYZ", iron, strict=True)
-    }
+def calibrated(draw: Draw, iron: Sequence[float], wires: Sequence[float]) -> dict[str, float]:
+    """What the pilot's calibration found: iron to a microtesla, an ampere's field to a tenth."""
+    tenth = 0.1 * math.hypot(*wires)
+    off = {f"MAG_OFF_{way}": (part, 1.0) for way, part in zip("XYZ", iron, strict=True)}
+    off |= {f"MAG_CUR_{way}": (part, tenth) for way, part in zip("XYZ", wires, strict=True)}
+    return {name: round(part + draw.between(-by, by), 3) for name, (part, by) in off.items()}
 
 
 def ground_of(draw: Draw, plant: str, mode: str, fault: str) -> dict[str, float]:
@@ -170,7 +171,7 @@ def shaking_of(draw: Draw) -> Shaking:
     )
 
 
-def scenario_of(draw: Draw, plant: str, iron: Sequence[float]) -> Scenario:
+def scenario_of(draw: Draw, plant: str, parameters: dict[str, float]) -> Scenario:
     """A mission in position or altitude mode, most with a fault in its middle."""
     mode = draw.one_of(("position", "position", "altitude"))
     ends = draw.one_of(("land", "land", "return"))
@@ -202,7 +203,7 @@ def scenario_of(draw: Draw, plant: str, iron: Sequence[float]) -> Scenario:
             "stick_way": draw.between(0.9, 1.2),
             "wind": wind_of(draw, BLIND_M_S if told == "gps_loss" else 12.0),
             "ground": ground_of(draw, plant, mode, told),
-            "parameters": calibrated(draw, iron),
+            "parameters": parameters,
             "pilot": hands,
             "first_fix": first_fix_of(draw),
             "fault": [fault] if fault else [],

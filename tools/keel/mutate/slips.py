@@ -17,7 +17,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from keel.c import source as csource
-from keel.c.declarations import Structures, structures
+from keel.c.declarations import Structures, macros, structures
 from keel.c.syntax import Node, found, parse, span, written
 
 COMPOUND = ("if_statement", "for_statement", "while_statement", "do_statement", "switch_statement")
@@ -60,6 +60,8 @@ class Surroundings:
     families: tuple[tuple[str, ...], ...] = ()
     # By functions: numbers that nothing within the bounds reaches within which they are proved.
     beyond: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    # By fields that are arrays: how many elements.
+    lengths: Mapping[str, int] = field(default_factory=dict)
 
 
 def surroundings(
@@ -68,7 +70,19 @@ def surroundings(
     """Structures and families of constants of these texts, with numbers beyond bounds."""
     every = list(texts)
     families = [family for text in every for family in _families(text)]
-    return Surroundings(structures(every), tuple(families), beyond or {})
+    known = structures(every)
+    return Surroundings(known, tuple(families), beyond or {}, _lengths(known, every))
+
+
+def _lengths(known: Structures, texts: Iterable[str]) -> dict[str, int]:
+    """How many elements each field has that is an array; the most, where several have its name."""
+    said = macros(texts)
+    found_ones: dict[str, int] = {}
+    for one in (one for fields in known.values() for one in fields if one.size):
+        _, text = said.get(one.size, ((), one.size))
+        if number := re.fullmatch(r"(\d+)[uU]?", text):
+            found_ones[one.name] = max(int(number[1]), found_ones.get(one.name, 0))
+    return found_ones
 
 
 def numbers_beyond(bounds: Iterable[str]) -> tuple[int, ...]:
@@ -166,27 +180,47 @@ def changes(text: str, code: str, block: Node, around: Surroundings) -> Iterator
 
 
 def changes_beyond(
-    code: str, block: Node, numbers: Iterable[int], known: Structures
+    code: str, block: Node, numbers: Iterable[int], around: Surroundings
 ) -> Iterator[Change]:
-    """Slips that show at these numbers, or above, alone."""
+    """Slips that show at these numbers, or above, alone. An index of an array is below its length,
+    and what counts such an index is no more: they reach no other number."""
+    ends = _ends(block, around.lengths)
     for number in numbers:
         for node in found(block, "subscript_expression"):
             index = node.child_by_field_name("index")
             if index and index.type == "identifier" and not CONSTANT.fullmatch(written(index)):
-                yield Change("beyond", *span(index), f"{written(index)} % {number}u")
+                if number < ends.get(written(index), MOST):
+                    yield Change("beyond", *span(index), f"{written(index)} % {number}u")
         for node in found(block, "binary_expression"):
-            yield from _relation_beyond(code, node, number)
+            yield from _relation_beyond(code, node, number, ends)
         for node in found(block, "for_statement", "while_statement", "do_statement"):
-            yield from _loop_beyond(code, node, number, known)
+            yield from _loop_beyond(code, node, number, around.structures, ends)
 
 
-def _relation_beyond(code: str, node: Node, number: int) -> Iterator[Change]:
+def _ends(block: Node, lengths: Mapping[str, int]) -> dict[str, int]:
+    """By variables and fields that are an index somewhere in a block: the shortest array's length.
+    """
+    ends: dict[str, int] = {}
+    for node in found(block, "subscript_expression"):
+        array = node.child_by_field_name("argument")
+        name = written(array.child_by_field_name("field")) if array else ""
+        if name in lengths:
+            index = written(node.child_by_field_name("index"))
+            ends[index] = min(lengths[name], ends.get(index, MOST))
+    return ends
+
+
+def _relation_beyond(
+    code: str, node: Node, number: int, ends: Mapping[str, int]
+) -> Iterator[Change]:
     """A size that comes round in a comparison; a comparison that comes out otherwise above."""
     left, operator, right = node.children
     if operator.type not in ("<", "<=", ">", ">="):
         return
     for side in (left, right):
         name = written(side)
+        if number > ends.get(name, MOST):
+            continue
         if side.type in ("identifier", "field_expression") and not CONSTANT.fullmatch(name):
             yield Change("beyond", *span(side), f"({name} % {number}u)")
             text = code[slice(*span(node))]
@@ -194,7 +228,9 @@ def _relation_beyond(code: str, node: Node, number: int) -> Iterator[Change]:
             yield Change("beyond", *span(node), f"(({text}) && ({name} < {number}u))")
 
 
-def _loop_beyond(code: str, node: Node, number: int, known: Structures) -> Iterator[Change]:
+def _loop_beyond(
+    code: str, node: Node, number: int, known: Structures, ends: Mapping[str, int]
+) -> Iterator[Change]:
     """A loop that ends by its head before what it counts comes so far; or, where it counts nothing
     itself, while a number beside what it looks at is so large."""
     condition = node.child_by_field_name("condition")
@@ -209,7 +245,8 @@ def _loop_beyond(code: str, node: Node, number: int, known: Structures) -> Itera
     text = code[slice(*span(condition))]
     looked_at = [name for name in sorted(counted) if _is_in(name, text)]
     for name in looked_at or _numbers_beside(condition, known):
-        yield Change("beyond", *span(condition), f"({text}) && ({name} < {number}u)")
+        if number <= ends.get(name, MOST):
+            yield Change("beyond", *span(condition), f"({text}) && ({name} < {number}u)")
 
 
 def _is_in(name: str, text: str) -> bool:

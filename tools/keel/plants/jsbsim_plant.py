@@ -29,10 +29,12 @@ from keel.plants.plants import (
 )
 
 FOOT = 0.3048
-LEGS_M = 0.1524 - 0.0015  # Of the centre of gravity above the ground, the springs pressed.
+LEGS_M = 0.1524 - 0.0011  # Of the centre of gravity above the ground, the springs pressed.
 SETTLING = 1200  # Steps: it sinks onto its legs, and its magnetometer takes the place's field.
 FLUSH = ctypes.CDLL(None).fflush
 WHEELS, SKIDS = 'type="BOGEY"', 'type="STRUCTURE"'
+CENTRE = re.compile(r'<contact name="Front_Center".*?<y>( 0\.0 )</y>.*?</contact>', re.DOTALL)
+SIDES = {"Left": " -0.1016 ", "Right": " 0.1016 "}  # As its legs behind.
 COMMANDS = ("FR", "AR", "AL", "FL")
 # JSBSim's own reader says on stdout that it is told something twice.
 jsbsim.FGJSBBase().debug_lvl = 0  # type: ignore[no-untyped-call]
@@ -156,7 +158,9 @@ class quiet:
 def described(airframe: Airframe) -> Path:
     """A folder with the F450's files, changed as the airframe differs.
 
-    Its legs are wheels, on which the wind rolls it away; here they are skids.
+    It stands on three wheels, and the wind rolls it away or blows it over an edge that is 4.5 cm
+    from its centre. Here it stands on four skids, as the aircraft does: JSBSim's way to find where
+    it rests, for which its authors took one leg, is not asked.
     """
     own = Path(jsbsim.__file__).parent
     folder = Path(tempfile.mkdtemp(prefix="keel-f450-"))
@@ -166,10 +170,7 @@ def described(airframe: Airframe) -> Path:
     (folder / "systems").symlink_to(own / "systems")
     frame = folder / "aircraft/F450"
     gear = frame / "Gear.xml"
-    legs = gear.read_text()
-    if WHEELS not in legs:
-        raise ToolError(f"{gear.name} of JSBSim's F450 has no {WHEELS}")
-    gear.write_text(legs.replace(WHEELS, SKIDS))
+    gear.write_text(on_skids(gear.name, gear.read_text()))
     scaled(frame / "Mass.xml", frame / "Mass.xml", r'<emptywt unit="KG">', airframe.mass)
     for axis, metres in (("x", -airframe.forward_m), ("y", airframe.right_m)):  # x points aft.
         moved(frame / "Mass.xml", rf'<location name="CG" unit="M">.*?<{axis}>', metres)
@@ -180,6 +181,17 @@ def described(airframe: Airframe) -> Path:
     scaled(own / motor, folder / motor, "<velocityconstant>", airframe.motor_speed)
     scaled(own / propeller, folder / propeller, r'<ixx unit="KG\*M2">', airframe.motor_lag)
     return folder
+
+
+def on_skids(name: str, legs: str) -> str:
+    """Its ground reactions with a skid at each corner."""
+    centre = CENTRE.search(legs)
+    if WHEELS not in legs or not centre:
+        raise ToolError(f"{name} of JSBSim's F450 has no {WHEELS}, or no Front_Center")
+    front = [
+        centre[0].replace("Center", side).replace(centre[1], away) for side, away in SIDES.items()
+    ]
+    return legs.replace(centre[0], "\n\t".join(front)).replace(WHEELS, SKIDS)
 
 
 def scaled(source: Path, target: Path, before: str, factor: float) -> None:
