@@ -70,6 +70,13 @@ def test_a_copter_that_may_not_arm_is_told(copter: Copter, tmp_path: Path) -> No
     assert trace.problem.startswith("not armed after 30 s") and "battery" in trace.problem
 
 
+def test_a_flight_is_over_when_its_motors_have_stood(copter: Copter, tmp_path: Path) -> None:
+    made = short(tmp_path).model_copy(update={"duration_s": 60.0, "over_s": 2.0})
+    trace = loop.fly(copter, Order(made, "mujoco", 1))
+    time, runs = trace.column("time"), trace.view["motors_on"].astype(bool)
+    assert time[-1] - time[runs][-1] == pytest.approx(2.0, abs=0.02) and time[-1] < 30.0
+
+
 def test_a_report_and_its_exit_status(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scenarios, build = tmp_path / "scenarios", tmp_path / "build"
     scenarios.mkdir()

@@ -211,10 +211,9 @@ class Flight:
         return self._trace(problem, crash)
 
     def _is_over(self, now_ms: int) -> bool:
-        """After the scenario's time, or when the motors do not start."""
-        over_s = self._scenario.over_s
+        """When the motors have stood, after the scenario's time, or when they do not start."""
         if self._begun_ms >= 0:
-            stood = over_s is not None and self._stood_ms >= 1000.0 * over_s
+            stood = self._stood_ms >= 1000.0 * self._scenario.over_s
             return stood or now_ms - self._begun_ms >= 1000.0 * self._scenario.duration_s
         if now_ms > 1000.0 * ARMS_WITHIN_S:
             self._copter.look()

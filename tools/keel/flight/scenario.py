@@ -362,7 +362,7 @@ class Scenario(Table):
     battery_left: Share = 0.95
     battery_resistance: Factor = 1.0  # Of the new and warm one: cold doubles it, age, too.
     stick_way: Annotated[float, Field(ge=0.5, le=1.2)] = 1.0  # Of the way that sticks should have.
-    over_s: Positive | None = None  # So long after the motors have stopped it is over.
+    over_s: Positive = 3.0  # So long after the motors have stopped it is over, or at duration_s.
     wind: Wind = Wind()
     airframe: Frame = Frame()
     ground: Ground = Ground()
