@@ -43,9 +43,9 @@ LAST_PATIENCE = 4.0  # for the attempt after which a mutant is said to survive
 NO_ANSWER = "no answer"
 CONTRADICTION = "contradiction"
 CONFIRM = 50  # of so many mutants that executions kill CBMC is asked about one
-# Of so many mutants that WP kills one is asked about with the full limits: three provers, and more
-# than three minutes for each goal that cannot be proved.
-CONFIRM_WP = 10
+# Of so many mutants that WP kills one is asked about with the full limits: that takes three provers
+# some ten minutes.
+CONFIRM_WP = 50
 # A program that may take so many seconds of processor time.
 LIMITED = ("sh", "-c", 'ulimit -t "$0"; exec "$@"')
 # C allows no pointer for a number, nor one for another type's: who mixes them up is stillborn.
@@ -83,7 +83,7 @@ class Trial:
     asked to confirm. Where they do not come to an end, CBMC is asked about the harness in which
     they did not. Then small harnesses try it, the one that killed most mutants of its function
     before the others; then it is tried by WP, which asks the function alone: what its callers rely
-    on is its contract, not its body. What is left gets the harnesses themselves: those that compare
+    on is its contract, not its body. The rest get the harnesses themselves: those that compare
     its function with the model before the others that cover it. Among equals the one that is
     usually fastest comes first. A mutant whose reason to be none is accepted
     is tried by executions and small harnesses alone: they tell a wrong reason.
