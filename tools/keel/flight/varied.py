@@ -24,8 +24,8 @@ TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has th
 DURATION_S = 80.0
 OVER_S = 2.0  # Nothing happens any more so long after its motors have stopped.
 BLIND_M_S = 5.0  # Without a place it lands as fast as the wind blows, and may tip over at 7 m/s.
-# In m/s, for an aircraft whose drag and mass are the F450's: to stand against more takes 25 degrees,
-# and legs that wide tip over at 34.
+# In m/s, for an aircraft with the F450's drag and mass: to stand against more takes 25 degrees, and
+# legs as wide as its own tip over at 34.
 WINDY_M_S = 20.0
 DECK_S = 8.0  # Since power-up: by then it has calibrated its gyroscopes at rest.
 HEALTHY = "no fault"
