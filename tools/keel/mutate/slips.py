@@ -198,7 +198,7 @@ def changes_beyond(
 
 
 def _ends(block: Node, lengths: Mapping[str, int]) -> dict[str, int]:
-    """By variables and fields that are an index somewhere in a block: the shortest array's length."""
+    """By variables and fields that are an index in a block: the shortest array's length."""
     ends: dict[str, int] = {}
     for node in found(block, "subscript_expression"):
         array = node.child_by_field_name("argument")
