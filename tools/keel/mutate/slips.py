@@ -182,8 +182,8 @@ def changes(text: str, code: str, block: Node, around: Surroundings) -> Iterator
 def changes_beyond(
     code: str, block: Node, numbers: Iterable[int], around: Surroundings
 ) -> Iterator[Change]:
-    """Slips that show at these numbers, or above, alone. An index of an array, and what counts it, is
-    at most the array's length, and reaches no greater number."""
+    """Slips that show at these numbers, or above, alone. An index of an array, and what counts it,
+    is at most the array's length, and reaches no greater number."""
     ends = _ends(block, around.lengths)
     for number in numbers:
         for node in found(block, "subscript_expression"):
