@@ -317,12 +317,12 @@ class Patience(Trials):
         self.assertEqual(self.ask(True), ("killed: f_ensures", 2))
         self.assertEqual(self.ask(True, wp.THOROUGH), ("survived", 2))
 
-    def test_one_in_ten_that_short_limits_do_not_prove_gets_the_full_ones(self) -> None:
-        said = [self.ask(True) for _ in range(11)]
-        self.assertEqual([number for number, one in enumerate(said) if one[1] == 2], [0, 10])
+    def test_one_in_fifty_that_short_limits_do_not_prove_gets_the_full_ones(self) -> None:
+        said = [self.ask(True) for _ in range(51)]
+        self.assertEqual([number for number, one in enumerate(said) if one[1] == 2], [0, 50])
         self.assertEqual(said[0][0], "killed: f_ensures")
         self.assertEqual(said[1], (f"killed: f_ensures{mutation.SHORTLY}", 1))
-        self.assertEqual((self.trial.late.executed, self.trial.late.confirmed), (11, 2))
+        self.assertEqual((self.trial.late.executed, self.trial.late.confirmed), (51, 2))
 
     def test_what_is_proved_at_once_is_not_asked_twice(self) -> None:
         self.assertEqual(self.ask(True, self.short), ("survived", 1))
