@@ -246,7 +246,7 @@ class Quality(Table):
     scale: Share = 0.0  # Of each inertial unit's axes, off by up to this share.
     cross_axis: Share = 0.0  # Each of their axes feels up to this share of each other one.
     iron: Annotated[list[float], Field(min_length=3, max_length=3)] = [0.0, 0.0, 0.0]  # In uT.
-    # What an ampere adds to the magnetometer's field, in uT, beside the small share above.
+    # An ampere adds this to the magnetometer's field, in uT, beside the small share above.
     wires: Annotated[list[float], Field(min_length=3, max_length=3)] = [0.0, 0.0, 0.0]
     wash: Measure = 0.0  # In Pa: more in front of the barometer, at full thrust on the ground.
     warmth: Measure = 0.0  # What gyroscopes' bias changes by as they get warm, in rad/s.
