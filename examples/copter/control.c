@@ -17,6 +17,7 @@
 
 #define SETTLES 0.14f /* The sine of the tilt that it keeps on the ground: 8 degrees. */
 #define BRAKES  2.0f  /* What it comes to a stop with, in wind, too; in m/s^2. */
+#define YIELDS  10.0f /* How fast it turns to give way to the ground, per torque; in rad/s. */
 
 keel_status_t copter_control_init(copter_control_t *control)
 {
@@ -271,6 +272,15 @@ static float tilted(float thrust, const copter_imu_t *imu)
     return (lifts < 1.0f) ? lifts : 1.0f;
 }
 
+/* An aircraft that touches the ground gives way to it: it turns against the torque that keeps it
+ * from lying as the ground does, so that on a slope it comes down on all its legs while the motors
+ * still carry most of it. Without that it would fall onto them when the motors stop, and over. */
+static void give_way(keel_cascade_rates_t *asked, const keel_cascade_t *cascade)
+{
+    asked->roll -= YIELDS * cascade->axis[KEEL_CASCADE_ROLL_RATE].pid.integral;
+    asked->pitch -= YIELDS * cascade->axis[KEEL_CASCADE_PITCH_RATE].pid.integral;
+}
+
 static keel_cascade_rates_t rates_of(const copter_t *copter)
 {
     const keel_cascade_t *const cascade = &copter->control.cascade;
@@ -291,6 +301,9 @@ static keel_cascade_rates_t rates_of(const copter_t *copter)
     } else {
         asked.thrust = tilted(sinks_blindly(copter) ? copter->control.sink : cascade->thrust,
                               &copter->imu);
+    }
+    if (copter->estimate.touches && !sticks_tilt(copter)) {
+        give_way(&asked, cascade);
     }
     return asked;
 }

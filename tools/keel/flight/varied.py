@@ -21,8 +21,7 @@ from keel.plants import plants
 from keel.plants.plants import Airframe
 
 TAG = 0x6B65656C  # Sets these draws apart from those of the noise, which has the same seed.
-DURATION_S = 80.0
-OVER_S = 2.0  # Nothing happens any more so long after its motors have stopped.
+DURATION_S = 100.0
 BLIND_M_S = 5.0  # Without a place it lands as fast as the wind blows, and may tip over at 7 m/s.
 # In m/s, for an aircraft with the F450's drag and mass: to stand against more takes 25 degrees, and
 # legs as wide as its own tip over at 34.
@@ -200,7 +199,6 @@ def scenario_of(
             "description": told,
             "plants": [plant],
             "duration_s": DURATION_S,
-            "over_s": OVER_S,
             "mode": mode,
             "heading_deg": draw.between(0.0, 360.0),
             "radio_hz": draw.one_of((50, 111)),
