@@ -195,7 +195,7 @@ def test_two_flights_are_as_far_apart_as_their_states_row_by_row() -> None:
     level = np.zeros(ROWS)
     tilted = np.where(np.arange(ROWS) == 70, 1.5, 0.0)
     assert all(one.good for one in alike.differences(two_states(level, 50), two_states(level, 50)))
-    begin, roll, pitch, place = alike.differences(two_states(level, 50), two_states(tilted, 50))
+    begin, roll, pitch, place, _ = alike.differences(two_states(level, 50), two_states(tilted, 50))
     assert (begin.good, roll.good, pitch.good, place.good) == (True, False, True, True)
     assert roll.value == "1.50 deg"
     moved = flight(north=0.6)
@@ -215,3 +215,19 @@ def test_what_a_turn_later_explains_is_no_difference_and_two_turns_are() -> None
             two_states(np.zeros(ROWS), 50), two_states(np.zeros(ROWS), begins)
         )
         assert found[0].good == good
+
+
+def landed(row: int) -> Trace:
+    """It lands, and is disarmed from a row on."""
+    view = np.zeros(2 * ROWS, dtype=VIEW)
+    view["state"] = states().index("landing")
+    view["state"][row:] = states().index("disarmed")
+    return Trace(np.zeros((2 * ROWS, len(TRUTH))), view)
+
+
+def test_a_touch_that_begins_anew_is_no_difference() -> None:
+    """600 ms are 120 rows."""
+    for later, good in ((120, True), (121, False)):
+        begin, *_, lands = alike.differences(landed(30), landed(30 + later))
+        assert (begin.good, lands.good) == (True, good)
+        assert lands.value == f"{5 * later} ms apart"

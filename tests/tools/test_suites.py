@@ -89,6 +89,28 @@ class SideBySide(unittest.TestCase):
         self.assertEqual([outcome.failures for outcome in found.values()], [[], [], []])
         self.assertLessEqual(max(most), 2)
 
+    def test_one_that_waits_runs_beside_those_of_all_cores(self) -> None:
+        others = threading.Barrier(3, timeout=WAIT_S)
+        now: list[str] = []
+        most: list[int] = []
+
+        def wait() -> Outcome:
+            now.append("waits")
+            most.append(now.count("waits"))
+            if len(most) == 1:
+                others.wait()  # With both of those that do not wait.
+            now.remove("waits")
+            return passed()
+
+        def meet() -> Outcome:
+            others.wait()
+            return passed()
+
+        waiting = [Suite(f"w{number}", (), wait, waits=True) for number in range(2)]
+        found, _ = self.run_all([*waiting, Suite("a", (), meet), Suite("b", (), meet)])
+        self.assertEqual([outcome.failures for outcome in found.values()], [[], [], [], []])
+        self.assertEqual(most, [1, 1])
+
     def test_one_at_a_time_is_possible(self) -> None:
         threads = threading.active_count()
         counts: list[int] = []
@@ -97,7 +119,7 @@ class SideBySide(unittest.TestCase):
             counts.append(threading.active_count() - threads)
             return passed()
 
-        self.run_all([Suite(name, (), act) for name in "abc"], jobs=1)
+        self.run_all([Suite(name, (), act, waits=name == "b") for name in "abc"], jobs=1)
         self.assertEqual(counts, [1, 1, 1])
 
     def test_the_longest_begin_and_the_report_keeps_its_order(self) -> None:

@@ -24,7 +24,11 @@ from keel.flight.loop import Flight, Order, Trace
 from keel.flight.pilot import Pilot, Sight
 
 PLANT = "jsbsim"
+LANDING = "landing"
 ROLL_PITCH_DEG, PLACE_M, APART_MS = 1.0, 0.5, 100
+# It touches the ground when it has not come down for half a second, which a speed near the limit
+# begins anew.
+LANDS_MS = 600
 ARMS_S = 24.6
 STEP_US, BOOTS_MS = 10, 2000
 ROW_MS = 5
@@ -68,17 +72,24 @@ def compared(
 
 def differences(own: Trace, theirs: Trace) -> list[Finding]:
     """How far two flights with the same states are from each other."""
-    apart_ms = ROW_MS * max(abs(a - b) for a, b in zip(begins(own), begins(theirs), strict=True))
+    apart_ms = [ROW_MS * abs(a - b) for a, b in zip(begins(own), begins(theirs), strict=True)]
+    names = loop.state_names(own)
+    landed = names.index(LANDING) + 1 if LANDING in names else len(apart_ms)
     angles = [math.degrees(largest(own, theirs, (name,))) for name in ("roll", "pitch")]
     place = largest(own, theirs, ("north", "east", "up"))
     return [
-        Finding("states begin", f"{apart_ms} ms apart", f"{APART_MS} ms", apart_ms <= APART_MS),
+        _apart_in_time("states begin", max(apart_ms[:landed]), APART_MS),
         *(
             Finding(name, f"{angle:.2f} deg", f"{ROLL_PITCH_DEG} deg", angle <= ROLL_PITCH_DEG)
             for name, angle in zip(("roll", "pitch"), angles, strict=True)
         ),
         Finding("place", f"{place:.2f} m", f"{PLACE_M} m", place <= PLACE_M),
+        _apart_in_time("lands", max(apart_ms[landed:], default=0), LANDS_MS),
     ]
+
+
+def _apart_in_time(name: str, apart_ms: int, most_ms: int) -> Finding:
+    return Finding(name, f"{apart_ms} ms apart", f"{most_ms} ms", apart_ms <= most_ms)
 
 
 def begins(trace: Trace) -> list[int]:

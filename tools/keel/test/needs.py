@@ -21,6 +21,7 @@ class Need(Table):
     groups: list[Text] = []
     seconds: Annotated[float, Field(ge=0.0)] = 0.0
     more: bool = False
+    waits: bool = False
 
 
 class Absent(Table):

@@ -28,13 +28,15 @@ JUNIT = "junit.xml"
 @dataclass(frozen=True)
 class Suite:
     """A named set of tests, with the groups of tools that it needs, the seconds that it takes
-    alone, and whether it runs only when all do; it may be run in any thread."""
+    alone, whether it runs only when all do, and whether it spends most of them waiting; it may be
+    run in any thread."""
 
     name: str
     groups: tuple[str, ...]
     run: Callable[[], Outcome]
     seconds: float = 0.0
     more: bool = False
+    waits: bool = False
 
 
 def add_options(parser: Parser) -> None:
@@ -117,27 +119,31 @@ def run_all(tools: Toolchain, suites: Sequence[Suite], jobs: int) -> dict[str, O
     """Run suites, so many at once, and tell of each as it ends; their outcomes in their own order.
 
     What they need is installed first: a tool must not change while another suite uses it. Then
-    those that take longest begin. Whatever ends this ends all programs that were started.
+    those that take longest begin. One of those that wait runs beside the others, so that no core
+    idles for it; but not where one at a time is asked for. Whatever ends this ends all programs
+    that were started.
     """
     wanted = dict.fromkeys(suite.groups for suite in suites)
     refused = {groups: refusal(tools, groups) for groups in wanted}
     outcomes: dict[str, Outcome] = {}
-    pool = ThreadPoolExecutor(jobs)
+    pool, lane = ThreadPoolExecutor(jobs), ThreadPoolExecutor(1)
     try:
         futures: dict[Future[Outcome], str] = {}
         for suite in sorted(suites, key=lambda suite: -suite.seconds):
-            why = refused[suite.groups]
-            futures[pool.submit(run_suite, suite, why)] = suite.name
+            runs_in = lane if suite.waits and jobs > 1 else pool
+            futures[runs_in.submit(run_suite, suite, refused[suite.groups])] = suite.name
         for future in as_completed(futures):
             name = futures[future]
             outcomes[name] = future.result()
             tell(name, outcomes[name])
     except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
+        for threads in (pool, lane):
+            threads.shutdown(wait=False, cancel_futures=True)
         stop_all()
         raise
     finally:
         pool.shutdown()
+        lane.shutdown()
     return {suite.name: outcomes[suite.name] for suite in suites}
 
 
