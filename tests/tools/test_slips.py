@@ -97,6 +97,10 @@ class Beyond(unittest.TestCase):
         self.assertEqual(beyond("return p->width == 9u;", 64), [])
         self.assertEqual(len(beyond("return a > BOX_RED;", 64, 256)), 6)
 
+    def test_a_time_is_no_count(self) -> None:
+        self.assertEqual(beyond("return p->age_us < 9u;", 64), [])
+        self.assertEqual(len(beyond("return p->width < a_us;", 64)), 3)
+
     def test_a_loop_ends_by_its_head(self) -> None:
         loop = "for (int i = 0; i != a; i++) { f(i, p); }"
         self.assertEqual(beyond(loop, 16), [loop.replace("i != a", "(i != a) && (i < 16u)")])

@@ -37,6 +37,7 @@ SIDE_EFFECT = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)")
 LOCAL = re.compile(r"(?:[\w ]+[\s*]+)?\w+\s*[-+*/|&]?=(?!=)")
 CALL = re.compile(r"\b([a-z_]\w*)\s*\(")
 MOST = 1 << 31  # Numbers beyond bounds stay below.
+TIME = "_us"  # How the name of a time ends, in microseconds.
 INTEGER = re.compile(r"u?int(?:8|16|32)_t")
 CONSTANT = re.compile(r"[A-Z][A-Z0-9]*_[A-Z0-9_]+")
 FUNCTION = re.compile(r"[a-z_]\w*")
@@ -209,6 +210,11 @@ def _ends(block: Node, lengths: Mapping[str, int]) -> dict[str, int]:
     return ends
 
 
+def _may_reach(name: str, number: int, ends: Mapping[str, int]) -> bool:
+    """Whether a name is of an index or a count, which may come to a number. A time is neither."""
+    return not name.endswith(TIME) and number <= ends.get(name, MOST)
+
+
 def _relation_beyond(
     code: str, node: Node, number: int, ends: Mapping[str, int]
 ) -> Iterator[Change]:
@@ -218,7 +224,7 @@ def _relation_beyond(
         return
     for side in (left, right):
         name = written(side)
-        if number > ends.get(name, MOST):
+        if not _may_reach(name, number, ends):
             continue
         if side.type in ("identifier", "field_expression") and not CONSTANT.fullmatch(name):
             yield Change("beyond", *span(side), f"({name} % {number}u)")
@@ -244,7 +250,7 @@ def _loop_beyond(
     text = code[slice(*span(condition))]
     looked_at = [name for name in sorted(counted) if _is_in(name, text)]
     for name in looked_at or _numbers_beside(condition, known):
-        if number <= ends.get(name, MOST):
+        if _may_reach(name, number, ends):
             yield Change("beyond", *span(condition), f"({text}) && ({name} < {number}u)")
 
 
