@@ -242,9 +242,7 @@ def with_needs(suite: Suite, needs: Needs) -> Suite:
     """A suite with what tests/suites.toml says of it."""
     need = needs.of(suite.name)
     groups = (*suite.groups, *need.groups)
-    return replace(
-        suite, groups=groups, seconds=need.seconds, more=need.more, waits=need.waits
-    )
+    return replace(suite, groups=groups, seconds=need.seconds, more=need.more, waits=need.waits)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
