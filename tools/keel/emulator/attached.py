@@ -4,7 +4,7 @@ the DMA behind them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -119,10 +119,11 @@ class Attached:
             )
             for name, wiring in wirings.items()
         }
-        self.blocks: dict[int, tuple[str, Block, Sequence[tuple[int, int]]]] = {}
+        # Each with its name, and its clock's register and bit.
+        self.blocks: dict[int, tuple[str, Block, tuple[int, int]]] = {}
         for name, wiring in wirings.items():
             block = UartBlock(self.lines[name])
-            self.blocks[UARTS[wiring.uart].base] = (wiring.uart, block, [wiring.clock])
+            self.blocks[UARTS[wiring.uart].base] = (wiring.uart, block, wiring.clock)
         for number, base in DMAS.items():
             own: dict[int, Stream] = {
                 line.stream: line for line in self.lines.values() if line.dma == number
@@ -130,11 +131,11 @@ class Attached:
             if ppm and number == OWN[0]:
                 own[OWN[1]] = ppm
             clock = (AHB1ENR, 20 + number)
-            self.blocks[base] = (f"DMA {number}", DmaBlock(own), [clock])
+            self.blocks[base] = (f"DMA {number}", DmaBlock(own), clock)
         if ppm:
-            self.blocks[TIM8] = ("timer 8", ppm, [(APB2ENR, 1)])
+            self.blocks[TIM8] = ("timer 8", ppm, (APB2ENR, 1))
         if i2c:
-            self.blocks[I2C3] = ("I2C 3", i2c, [(APB1ENR, 23)])
+            self.blocks[I2C3] = ("I2C 3", i2c, (APB1ENR, 23))
 
     def reset(self) -> None:
         for line in self.lines.values():
@@ -151,7 +152,7 @@ class Attached:
         self._block(base).write(offset, value, now_us)
 
     def _block(self, base: int) -> Block:
-        name, block, clocks = self.blocks[base]
-        if not all(map(self.clocked, clocks)):
+        name, block, clock = self.blocks[base]
+        if not self.clocked(clock):
             raise ClockError(f"{name} is used without its clock")
         return block

@@ -202,7 +202,7 @@ class Chip:
             wiring.lines,
             self.i2c if wiring.i2c else None,
             self.ppm if wiring.ppm else None,
-            lambda clock: bool(self.words.get(clock[0], 0) >> clock[1] & 1),
+            lambda clock: self.words.get(clock[0], 0) >> clock[1] & 1 != 0,
             self._function_of,
             lambda address, byte: self.store(address, byte),
         )
@@ -297,7 +297,7 @@ class Chip:
             return (self.time_us - self.counter_from_us) & 0xFFFF_FFFF
         base = self.block(address)
         if base in self.attached.blocks:
-            return self._attached(base, address - base, None)
+            return self._read_attached(base, address - base)
         if address == self.console + 0x1C:
             due = bool(self.keys) and self.keys[0][0] <= self.time_us
             return self.words[address] | (0x20 if due else 0)
@@ -322,7 +322,7 @@ class Chip:
         if base in CLOCKED and not self.words.get(CLOCKED[base][0], 0) >> CLOCKED[base][1] & 1:
             return  # Without its clock a peripheral takes nothing.
         if base in self.attached.blocks:
-            self._attached(base, address - base, value)
+            self._write_attached(base, address - base, value)
             return
         self.words[address] = value
         handler = self.handlers.get(base)
@@ -330,20 +330,24 @@ class Chip:
             handler(address - base, value)
         elif GPIOA <= base < GPIOA + 11 * 0x400:
             self._gpio((base - GPIOA) // 0x400, address - base, value)
-        if base in CLOCKED or (GPIOA <= base < GPIOA + 11 * 0x400 and address - base < 0x28):
+        if base in CLOCKED or (base in self.outputs.ports and address - base < 0x28):
             self._outputs(base, address - base)
 
-    def _attached(self, base: int, offset: int, value: int | None) -> int:
-        """A register of a peripheral that is a model of its own: written, or read."""
+    def _read_attached(self, base: int, offset: int) -> int:
+        """What a register of a peripheral reads that is a model of its own."""
         try:
-            if value is None:
-                return self.attached.read(base, offset, self.time_us)
+            return self.attached.read(base, offset, self.time_us)
+        except (ClockError, DmaUartError, I2cError) as error:
+            raise ModelError(str(error)) from error
+
+    def _write_attached(self, base: int, offset: int, value: int) -> None:
+        """What writing a register of such a peripheral does."""
+        try:
             if base == I2C3 and offset == I2C_CR2 and value & START:
                 self._check_i2c_pins()
             self.attached.write(base, offset, value, self.time_us)
         except (ClockError, DmaUartError, I2cError) as error:
             raise ModelError(str(error)) from error
-        return 0
 
     def _check_i2c_pins(self) -> None:
         for pin in self.i2c_pins or ():
@@ -534,11 +538,13 @@ class Chip:
             self.spis.changed()
             return
         for bit in range(16):
+            if not value >> bit & 0x1_0001:
+                continue
             pin = (port, bit)
             if value >> bit & 1:
                 self.high.setdefault(pin, self.time_us)
                 self.spis.select(pin, False)
-            elif value >> 16 >> bit & 1:
+            else:
                 self.high.pop(pin, None)
                 self.spis.select(pin, True)
         if self.i2c_pins and all(map(self._is_output, self.i2c_pins)):

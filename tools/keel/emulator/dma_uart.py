@@ -207,7 +207,9 @@ class Line:
     def _free(self, now_us: float) -> int:
         """A byte may be on its way, and another one wait."""
         behind_us = self._sent_until_us - now_us
-        return (TC if behind_us <= 0 else 0) | (TXE if behind_us <= self._byte_us() else 0)
+        if behind_us <= 0:  # First, as it is read by every turn of a task that has nothing to send.
+            return TC | TXE
+        return TXE if behind_us <= self._byte_us() else 0
 
     def _transmit(self, value: int, now_us: float) -> None:
         if self._words.get(CR1, 0) & (UE | TE) != UE | TE:

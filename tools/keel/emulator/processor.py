@@ -66,13 +66,14 @@ class Processor:
     # What the processor meets.
 
     def _read(self, _: object, offset: int, size: int, start: int) -> int:
+        chip = self.chip
         try:
-            word = self.chip.read((start + offset) & ~3)
-            if self.chip.raised and not self.pending and not self.chip.exception:
-                self.pending, self.chip.raised = (self.chip.raised, 0, 0), 0
-            if self.chip.reset_wanted or self.pending:
+            word = chip.read((start + offset) & ~3)
+            if chip.raised and not self.pending and not chip.exception:
+                self.pending, chip.raised = (chip.raised, 0, 0), 0
+            if chip.reset_wanted or self.pending:
                 self.uc.emu_stop()
-            return word >> 8 * (offset & 3) & ((1 << 8 * size) - 1)
+            return word if size == 4 else word >> 8 * (offset & 3) & ((1 << 8 * size) - 1)
         except ModelError as error:
             self._stop(error)
             return 0

@@ -130,6 +130,7 @@ class Outputs:
 
     def __init__(self, names: Sequence[str]) -> None:
         self.pins = [pin_of(name.split()[0]) for name in names]
+        self.ports = {GPIOA + 0x400 * port for port, _ in self.pins}  # By their bases.
         self.owners = [name.partition(" ")[2].partition("_CH") for name in names]
         self.timers = timers()
         self.by_base = {timer.base: timer for timer in self.timers.values()}
