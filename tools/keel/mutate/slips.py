@@ -183,14 +183,14 @@ def changes(text: str, code: str, block: Node, around: Surroundings) -> Iterator
 def changes_beyond(
     code: str, block: Node, numbers: Iterable[int], around: Surroundings
 ) -> Iterator[Change]:
-    """Slips that show at these numbers, or above, alone. An index of an array, and what counts it,
-    is at most the array's length, and reaches no greater number."""
+    """Slips that show at these numbers, or above, alone. An index of an array is below its length,
+    and what counts it is at most the length: neither reaches a greater number."""
     ends = _ends(block, around.lengths)
     for number in numbers:
         for node in found(block, "subscript_expression"):
             index = node.child_by_field_name("index")
             if index and index.type == "identifier" and not CONSTANT.fullmatch(written(index)):
-                if number <= ends.get(written(index), MOST):
+                if number < ends.get(written(index), MOST):
                     yield Change("beyond", *span(index), f"{written(index)} % {number}u")
         for node in found(block, "binary_expression"):
             yield from _relation_beyond(code, node, number, ends)
