@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file many_tasks.h
- * @brief Queues of chosen content with as many tasks as fit, or one less.
+ * @brief Queues of chosen content and any number of tasks.
  */
 #ifndef MANY_TASKS_H
 #define MANY_TASKS_H
