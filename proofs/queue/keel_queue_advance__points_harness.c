@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // cbmc: --unwind 34 --no-array-field-sensitivity
+// checks: assertions
 // sources: src/rtos/queue.c specs/model/queue.c
 // covers: keel_queue_advance add_saturating model_queue_advance
 //
 // Long periods, and so many missed ones that their count just fits, or does not: the same as the
 // model's. Mistakes that only large numbers show are refuted here in seconds;
 // keel_queue_advance_harness has all small ones.
-#include "many_tasks.h"
+#include "../common/many_tasks.h"
 
 typedef struct {
     uint32_t period_us;

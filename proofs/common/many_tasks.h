@@ -6,7 +6,7 @@
 #ifndef MANY_TASKS_H
 #define MANY_TASKS_H
 
-#include "../common/queue_contracts.h"
+#include "queue_contracts.h"
 
 /* A queue of so many tasks, the first of which are real-time; a slot is not at its own place. */
 static keel_queue_t queue_of(uint32_t count, uint32_t realtime_count)
@@ -21,7 +21,7 @@ static keel_queue_t queue_of(uint32_t count, uint32_t realtime_count)
         queue.priority[x] =
             (uint8_t)((i < realtime_count) ? KEEL_PRIORITY_REALTIME : KEEL_PRIORITY_HIGH);
         queue.period_us[x] = 1000u + x;
-        queue.budget_us[x] = 10u + x;
+        queue.budget_us[x] = 1u + (x % 8u);
         queue.release_us[x] = 5000u + x;
         queue.skipped[x] = (uint16_t)(20u + x);
         queue.stats[x].runs = 30u + x;
