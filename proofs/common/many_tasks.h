@@ -18,8 +18,8 @@ static keel_queue_t queue_of(uint32_t count, uint32_t realtime_count)
 
         queue.order[i] = (uint8_t)x;
         queue.task[x] = (i < count) ? &proof_config[x] : NULL;
-        queue.priority[x] =
-            (uint8_t)((i < realtime_count) ? KEEL_PRIORITY_REALTIME : KEEL_PRIORITY_HIGH);
+        queue.priority[x] = (uint8_t)((i < realtime_count) ? KEEL_PRIORITY_REALTIME
+                                                           : KEEL_PRIORITY_HIGH);
         queue.period_us[x] = 1000u + x;
         queue.budget_us[x] = 1u + (x % 8u);
         queue.release_us[x] = 5000u + x;

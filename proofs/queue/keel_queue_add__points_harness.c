@@ -4,8 +4,8 @@
 // sources: src/rtos/queue.c specs/model/queue.c
 // covers: keel_queue_add fill_slot open_place enqueue_task model_queue_add
 //
-// A task comes into a queue with one place left, before all others, between them or behind them: the
-// same as the model's. Mistakes that only many tasks show are refuted here in seconds;
+// A task comes into a queue with one place left, before all others, between them or behind them:
+// the same as the model's. Mistakes that only many tasks show are refuted here in seconds;
 // keel_queue_add_harness has any queue.
 #include "../common/many_tasks.h"
 

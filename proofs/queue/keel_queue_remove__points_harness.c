@@ -4,8 +4,8 @@
 // sources: src/rtos/queue.c specs/model/queue.c
 // covers: keel_queue_remove close_place model_queue_remove
 //
-// A full queue loses its first task, its last or one between: the same as the model's. Mistakes that
-// only many tasks show are refuted here in seconds; keel_queue_remove_harness has any queue.
+// A full queue loses its first task, its last or one between: the same as the model's. Mistakes
+// that only many tasks show are refuted here in seconds; keel_queue_remove_harness has any queue.
 #include "../common/many_tasks.h"
 
 static const uint32_t point[] = {0u, CAPACITY / 2u, CAPACITY - 2u, CAPACITY - 1u};

@@ -17,7 +17,11 @@
 #define ABOVE ((int16_t)PLACE - 3)
 #define BELOW ((int16_t)PLACE + 5)
 
-typedef enum { NO_SCHEDULER, NEWCOMER, DUPLICATE } given_t;
+typedef enum {
+    NO_SCHEDULER,
+    NEWCOMER,
+    DUPLICATE
+} given_t;
 
 typedef struct {
     given_t given;

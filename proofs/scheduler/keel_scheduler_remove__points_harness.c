@@ -8,9 +8,9 @@
 // replaces: keel_queue_remove
 // covers: keel_scheduler_remove remove_task shift_pass
 //
-// Of as many tasks as fit one goes, before, in or behind the pass and the task that runs, or none as
-// it is not there: the same as the model's. Mistakes that only many tasks show are refuted here in
-// seconds; keel_scheduler_remove_harness has any scheduler of few.
+// Of as many tasks as fit one goes, before, in or behind the pass and the task that runs, or none
+// as it is not there: the same as the model's. Mistakes that only many tasks show are refuted here
+// in seconds; keel_scheduler_remove_harness has any scheduler of few.
 #include "many_scheduled.h"
 
 /* Positions in the later half of a full queue. */
