@@ -2,6 +2,7 @@
 // cbmc: --unwind 34 --no-array-field-sensitivity
 // checks: assertions
 // sources: src/rtos/queue.c specs/model/queue.c
+// defines: -DKEEL_QUEUE_CAPACITY=32u
 // covers: keel_queue_add fill_slot open_place enqueue_task model_queue_add
 //
 // A task comes into a queue with one place left, before all others, between them or behind them:

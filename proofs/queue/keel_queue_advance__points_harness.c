@@ -2,6 +2,7 @@
 // cbmc: --unwind 34 --no-array-field-sensitivity
 // checks: assertions
 // sources: src/rtos/queue.c specs/model/queue.c
+// defines: -DKEEL_QUEUE_CAPACITY=32u
 // covers: keel_queue_advance add_saturating model_queue_advance
 //
 // Long periods, and so many missed ones that their count just fits, or does not: the same as the

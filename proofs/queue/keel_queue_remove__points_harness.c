@@ -2,6 +2,7 @@
 // cbmc: --unwind 34 --no-array-field-sensitivity
 // checks: assertions
 // sources: src/rtos/queue.c specs/model/queue.c
+// defines: -DKEEL_QUEUE_CAPACITY=32u
 // covers: keel_queue_remove close_place model_queue_remove
 //
 // A full queue loses its first task, its last or one between: the same as the model's. Mistakes

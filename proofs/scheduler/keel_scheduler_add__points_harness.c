@@ -6,6 +6,7 @@
 // sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
 // sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/stats.c
 // replaces: keel_admission_queue keel_admission_admit keel_queue_add
+// defines: -DKEEL_QUEUE_CAPACITY=32u
 // covers: keel_scheduler_add insert_task add_to_queue
 //
 // A task comes to many, of which one before or behind it runs, or is refused: the same as the

@@ -6,6 +6,7 @@
 // sources: specs/model/scheduler.c specs/model/pass.c specs/model/queue.c specs/model/clock.c
 // sources: specs/model/task.c specs/model/decision.c specs/model/priority.c specs/model/stats.c
 // replaces: keel_queue_remove
+// defines: -DKEEL_QUEUE_CAPACITY=32u
 // covers: keel_scheduler_remove remove_task shift_pass
 //
 // Of as many tasks as fit one goes, before, in or behind the pass and the task that runs, or none
