@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 5 --refine
+// cbmc: --unwind 5 --external-sat-solver cadical
 // sources: src/middleware/voter.c specs/model/voter.c specs/model/range.c
 // replaces: keel_voter_agreement keel_voter_weight keel_voter_combine
 // covers: keel_voter_step inspect_sample inspect_samples compare_with_last is_stale compare_samples
