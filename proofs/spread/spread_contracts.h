@@ -20,14 +20,4 @@ static bool keel_spread_divisor_does(uint32_t divisor, uint32_t a, uint32_t b)
     return divisor == model_spread_divisor(a, b);
 }
 
-/* Of periods up to 2^3 us. The solver sees at once that the bits above are 0. */
-uint32_t keel_spread_divisor_stand_in(uint32_t a, uint32_t b)
-{
-    const uint32_t divisor = any_bits(3u) + 1u;
-
-    __CPROVER_assert(keel_spread_divisor_may(a, b), "precondition: keel_spread_divisor");
-    __CPROVER_assume(keel_spread_divisor_does(divisor, a, b));
-    return divisor;
-}
-
 #endif
