@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file version.h
- * @brief The version of Keel, by https://semver.org: the one place where it is written by hand.
+ * @brief The version of Keel, by https://semver.org. All files that name it follow this one.
  *
  * Before 1.0.0 a new minor version may change the interface; CHANGELOG.md says how.
  */

@@ -144,15 +144,17 @@ def functions() -> tuple[str, ...]:
 
 @cache
 def mutants() -> tuple[str, ...]:
-    """Units with a result, and all; mutants that compile, killed, and the others, by their object
-    code and by a reason."""
+    """Units with a result, and all; mutants that compile, killed, by a harness and by WP alone, and
+    the others, by their object code and by a reason."""
     records = toml_of("specs/mutation.toml")["unit"].values()
     killed = sum(sum(one["killed"].values()) for one in records)
     same = sum(len(lines) for one in records for lines in one["same_code"].values())
     accepted = sum(len(one["accepted"]) for one in records)
     units = len(list((ROOT / "proofs").glob("*/goals.txt")))
     left = same + accepted
-    return tuple(map(str, (len(records), units, killed + left, killed, left, same, accepted)))
+    by_wp = sum(one["killed"]["wp"] for one in records)
+    by = (killed, killed - by_wp, by_wp)
+    return tuple(map(str, (len(records), units, killed + left, *by, left, same, accepted)))
 
 
 @cache
@@ -237,6 +239,33 @@ def ring_bytes() -> tuple[str, ...]:
 def random_sets() -> tuple[str, ...]:
     found = number_in("tests/timing/test_soundness.py", r'"KEEL_RANDOM_SETS", "(\d+)"')
     return (spaced(int(found)),)
+
+
+def isolation_sets() -> tuple[str, ...]:
+    found = number_in("tests/timing/test_isolation.py", r'"KEEL_RANDOM_SETS", "(\d+)"\)\) // 10')
+    return (spaced(int(found) // 10),)
+
+
+def asks_z3() -> tuple[str, ...]:
+    """Goals of WP that Z3 proves, and harnesses that ask it."""
+    goals = [
+        line
+        for path in (ROOT / "proofs").glob("*/goals.txt")
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if line.endswith(" z3")
+    ]
+    harnesses = [
+        path
+        for path in (ROOT / "proofs").glob("*/*_harness.c")
+        if "--z3" in path.read_text(encoding="utf-8")
+    ]
+    return str(len(goals)), str(len(harnesses))
+
+
+def left_to_cbmc() -> tuple[str, ...]:
+    """Functions whose postconditions WP leaves to CBMC."""
+    units = toml_of("proofs/units.toml").values()
+    return (str(sum(len(one.get("not_by_wp", [])) for one in units if isinstance(one, dict))),)
 
 
 def vectors() -> tuple[str, ...]:
@@ -383,7 +412,8 @@ FIGURES: tuple[Figure, ...] = (
     Figure("docs/proved.md", r"queues of (\d+) tasks, (\d+) sensors;", both),
     Figure(
         "docs/proved.md",
-        r"now for (\d+) of the (\d+) units\. Of their (\d+) mutants.*?refute (\d+)\. Of the "
+        r"now for (\d+) of the (\d+) units\. Of their (\d+) mutants.*?notice (\d+): harnesses "
+        r"refute (\d+) by a counterexample, and of (\d+) WP no longer proves a goal\. Of the "
         r"other (\d+), (\d+) compile to the same object code, and (\d+) mean",
         mutants,
     ),
@@ -411,7 +441,11 @@ FIGURES: tuple[Figure, ...] = (
         r"of up to (\d+) fields",
         ulog_sizes,
     ),
-    Figure(SOUNDNESS, r"(\d[\d ]*) random sets", random_sets),
+    Figure(SOUNDNESS, r"(\d[\d ]*) random sets on the virtual board", random_sets),
+    Figure(SOUNDNESS, r"promotes; (\d[\d ]*) random sets", isolation_sets),
+    Figure(SOUNDNESS, r"same numbers of (\d[\d ]*) random sets", isolation_sets),
+    Figure(SOUNDNESS, r"Z3, which (\d+) goals of WP and (\d+) of", asks_z3),
+    Figure("docs/proved.md", r"except for the results of (\d+) functions", left_to_cbmc),
     Figure(SOUNDNESS, r"CBMC is shown one in (\d+)", confirmed),
     Figure(SOUNDNESS, r"\((\d+\.\d) minutes\)", half_turn),
     Figure("CONTRIBUTING.md", r"CBMC must see the same in one of (\d+)", confirmed),

@@ -140,7 +140,7 @@ class StatusTest(unittest.TestCase):
         self.assertIn("- not determined in every field: `q_4`.\n", text)
         self.assertIn("- without a harness: `f`, `g`.\n", text)
         self.assertIn("- declared without a body: `h`.\n", text)
-        self.assertIn("- postconditions left to CBMC: 2 functions of floats: `queue` 2.\n", text)
+        self.assertIn("- postconditions left to CBMC: 2 functions: `queue` 2.\n", text)
 
     def test_partial_report_is_refused(self) -> None:
         self.refused(a_report() | {"partial": True}, "not of all units")

@@ -87,8 +87,8 @@ keel_status_t keel_scheduler_start(keel_scheduler_t *scheduler);
 
 /**
  * One step: a pass over the tasks, if any can be due (requirement SCH-020). To be called for ever,
- * at most 2^31 us apart; for the isolation theorems (specs/soundness.md) at most W apart, but for
- * sleeps as keel_scheduler_idle_us allows them.
+ * at most 2^31 - 1 us apart; for the isolation theorems (specs/soundness.md) at most W apart, but
+ * for sleeps as keel_scheduler_idle_us allows them.
  *
  * @param scheduler a started scheduler, or null
  * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE before the start and from within a task;

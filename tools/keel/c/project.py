@@ -185,14 +185,23 @@ def resolve(root: Path, including: Path, name: str, quoted: bool = True) -> Path
     raise ProjectError(f"{shown(including, root)} includes {name}, which is not there")
 
 
-def closure(root: Path, files: list[Path]) -> list[Path]:
-    """The files and all that they include from the project, each once, sorted."""
+def closure(
+    root: Path, files: list[Path], included: dict[Path, list[Path]] | None = None
+) -> list[Path]:
+    """The files and all that they include from the project, each once, sorted.
+
+    Who asks often, while no file changes, keeps in `included` what each file names.
+    """
+    known = {} if included is None else included
     seen: set[Path] = set()
     waiting = [path.resolve() for path in files]
     while waiting:
         path = waiting.pop()
-        if path not in seen:
-            seen.add(path)
+        if path in seen:
+            continue
+        seen.add(path)
+        if path not in known:
             named = csource.includes(csource.read(path))
-            waiting += filter(None, (resolve(root, path, *one) for one in named))
+            known[path] = [found for one in named if (found := resolve(root, path, *one))]
+        waiting += known[path]
     return sorted(seen)

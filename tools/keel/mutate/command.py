@@ -14,7 +14,7 @@ Mutants are slips of the pen (another operator, a number beside the right one, a
 and of thought (order, a stale value, the neighbour's field or index, a check that comes too late, a
 clause forgotten; tools/keel/mutate/slips.py). One is killed by a counterexample to a harness of
 CBMC, or by a goal that WP leaves open within three times the processor time that the unchanged
-function needs; one of ten such goals is asked about with WP's full limits, and the run fails where
+function needs; one of 50 such goals is asked about with WP's full limits, and the run fails where
 these prove it. A counterexample is an execution:
 first the harnesses are executed on this machine, on inputs that were found on the unchanged code
 (tools/keel/mutate/execution.py; CBMC is asked to confirm one of 50, see --confirm, and the run

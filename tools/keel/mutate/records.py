@@ -31,7 +31,8 @@ def all_harnesses(root: Path) -> list[tuple[Harness, frozenset[Path]]]:
     read = [
         read_harness(unit, path) for unit in find_units(root).values() for path in unit.harnesses
     ]
-    return [(one, frozenset(closure(root, [one.path, *one.sources]))) for one in read]
+    included: dict[Path, list[Path]] = {}
+    return [(one, frozenset(closure(root, [one.path, *one.sources], included))) for one in read]
 
 
 def killers(answers: Iterable[Mapping[str, str]]) -> frozenset[str]:

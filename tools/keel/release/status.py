@@ -35,10 +35,12 @@ mistakes refuted |
 """
 KEY = """
 A *function determined* is a public function of which result and every field it writes are proved to
-be those of its [executable specification](../specs/model/README.md). A *goal* is a statement that
-WP or Gappa proves. A *harness* is a program that calls one function once with arbitrary arguments
-and states; a *property* is one thing that CBMC checks in it. A *mistake* is made on purpose in a
-body or a bound, and must be noticed. [What is proved](proved.md) says what all of this amounts to.
+be those of its [executable specification](../specs/model/README.md), in every valid state or within
+a bound, or are determined by WP's clauses; `proofs/determined.md` says which. A *goal* is a
+statement that WP or Gappa proves. A *harness* is a program that calls a function, mostly once, with
+arbitrary or chosen arguments and states; a *property* is one thing that CBMC checks in it. A
+*mistake* is made on purpose in a body or a bound, and must be noticed. [What is proved](proved.md)
+says what all of this amounts to.
 """
 DETERMINED = ("equality", "wp")
 REASONS = "`proofs/units.toml`"
@@ -72,10 +74,10 @@ def undetermined(units: Mapping[str, Any]) -> list[str]:
 
 
 def left_to_cbmc(units: Mapping[str, Any]) -> str:
-    """How many functions of floats each unit leaves to CBMC; empty when there is none."""
+    """How many functions each unit leaves to CBMC; empty when there is none."""
     counts = {name: len(unit["wp"]["not_by_wp"]) for name, unit in units.items()}
     parts = [f"`{name}` {count}" for name, count in counts.items() if count]
-    return f"{sum(counts.values())} functions of floats: {', '.join(parts)}" if parts else ""
+    return f"{sum(counts.values())} functions: {', '.join(parts)}" if parts else ""
 
 
 def named(functions: Sequence[str]) -> str:
