@@ -60,7 +60,7 @@ from keel.mutate import verdicts as mutant_verdicts
 from keel.mutate.crew import Dask, Job, Threads, answer_order
 from keel.mutate.harnesses import survey
 from keel.mutate.mutation import BY_CBMC, BY_WP, CONFIRM, DRIVER, Tools, Trial
-from keel.mutate.operators import Mutant, generate
+from keel.mutate.operators import Generated, Mutant, generate
 from keel.mutate.trees import Trees
 from keel.mutate.verdicts import Verdict
 from keel.prove.times import Times
@@ -197,6 +197,20 @@ class Measured:
         return self.trial.digest_of(self.found, text)
 
 
+def surroundings(root: Path) -> mutant_slips.Surroundings:
+    """What the mutants of a tree are made of besides the function's own text."""
+    beyond = {
+        name: mutant_slips.numbers_beyond(bounds)
+        for name, bounds in determined.bounds_of(root).items()
+    }
+    return mutant_slips.surroundings(clauses.header_texts(root), beyond)
+
+
+def generated(unit: Unit, around: mutant_slips.Surroundings) -> list[Generated]:
+    """The mutants of a unit, file by file."""
+    return [generate(path, around) for path in unit.own_files]
+
+
 def report_of(unit: Unit) -> Path:
     """Where the report of the last trials of a unit is."""
     return unit.root / "build" / "mutate" / f"{unit.name}.json"
@@ -220,11 +234,7 @@ class Measurement:
         times = Times(root / "build/prove/times.json", root / RECORDED_TIMES)
         cache = Cache(tools.cache.folder / "mutants", options.fresh)
         cache.prune()
-        beyond = {
-            name: mutant_slips.numbers_beyond(bounds)
-            for name, bounds in determined.bounds_of(root).items()
-        }
-        around = mutant_slips.surroundings(clauses.header_texts(root), beyond)
+        around = surroundings(root)
         self.units: list[Measured] = []
         seen = survey(root)
         for unit in units:
@@ -245,7 +255,7 @@ class Measurement:
                 accepted,
                 options.confirm,
             )
-            made = [generate(path, around) for path in unit.own_files]
+            made = generated(unit, around)
             found = [
                 mutant
                 for one in made
