@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 9 --object-bits 10
+// cbmc: --unwind 10 --object-bits 10
 // sources: src/middleware/voter.c specs/model/voter_parts.c specs/model/range.c
 // checks: assertions
 // covers: keel_voter_combine model_voter_combine
 //
 // Chosen samples and weights: zeros of both signs, which rounding to 0 brings to light; values just
-// beyond the range; none that counts. All: keel_voter_combine_harness.c, where z3 finds no example.
+// beyond the range; none that counts; the largest first. All: keel_voter_combine_harness.c, where z3 finds no example.
 #include "../common/voter_proof.h"
 
-#define POINTS 8u
+#define POINTS 9u
 
 static const float value[POINTS][SENSORS] = {
     {1.0f, 2.5f, -3.0f, 4.0f},
@@ -19,12 +19,13 @@ static const float value[POINTS][SENSORS] = {
     {1000000.5f, 1000000.5f, 1000000.5f, 1000000.5f},
     {-1000000.5f, -1000000.5f, -1000000.5f, -1000000.5f},
     {1.0f, 2.0f, 3.0f, 4.0f},
+    {9.0f, 5.0f, 6.0f, 7.0f},
 };
 
 static const float weight[POINTS][SENSORS] = {
     {0.25f, 0.5f, 0.75f, 1.0f}, {1.0f, 1.0f, 0.0f, 0.0f},  {1.0f, 1.0f, 0.0f, 0.0f},
     {1.0f, 1.0f, 0.25f, 0.0f},  {1.0f, 1.0f, 0.25f, 0.0f}, {1.0f, 0.0f, 1.0f, 1.0f},
-    {1.0f, 0.0f, 1.0f, 1.0f},   {0.0f, 0.0f, 0.0f, 0.0f},
+    {1.0f, 0.0f, 1.0f, 1.0f},   {0.0f, 0.0f, 0.0f, 0.0f},  {1.0f, 0.5f, 0.5f, 0.5f},
 };
 
 void keel_voter_combine__points_harness(void)
