@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cbmc: --unwind 5
+// cbmc: --unwind 5 --external-sat-solver cadical
 // checks: assertions
 // sources: src/middleware/voter.c
 // replaces: keel_voter_within
