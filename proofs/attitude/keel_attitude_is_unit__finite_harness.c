@@ -20,5 +20,5 @@ void keel_attitude_is_unit__finite_harness(void)
     is_unit = keel_attitude_is_unit(q);
 
     __CPROVER_assert(keel_attitude_is_unit_does(is_unit, q),
-                     "ATT_011_components: a unit quaternion is finite and bounded");
+                     "ATT_011_unit: a unit quaternion is finite and bounded");
 }

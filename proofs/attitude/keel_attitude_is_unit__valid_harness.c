@@ -22,5 +22,5 @@ void keel_attitude_is_unit__valid_harness(void)
     is_unit = keel_attitude_is_unit(q);
 
     __CPROVER_assert(!is_unit || keel_attitude_is_unit_does(true, q),
-                     "ATT_011_components: a unit quaternion is finite and bounded");
+                     "ATT_011_unit: a unit quaternion is finite and bounded");
 }

@@ -25,9 +25,9 @@ void keel_attitude_step__valid_harness(void)
     keel_attitude_step(&attitude, &sample);
 
     __CPROVER_assert(quaternion_same(&attitude.quaternion, &accepted),
-                     "ATT_011_unit: the quaternion was taken for a unit");
+                     "ATT_011_taken: the quaternion was taken for a unit");
     __CPROVER_assert(keel_attitude_is_unit_does(true, attitude.quaternion),
-                     "ATT_011_finite: the quaternion is finite and bounded");
+                     "ATT_011_components: the quaternion is finite and bounded");
     __CPROVER_assert(attitude_counts_valid(&attitude), "ATT_011_counts: the counts are in range");
     __CPROVER_assert(attitude.phase <= KEEL_ATTITUDE_RUNNING, "ATT_014_one: one of three phases");
     __CPROVER_assert(vector_within(attitude.first_rate, KEEL_ATTITUDE_RATE_LIMIT) &&
