@@ -3,9 +3,10 @@
 
 In all that is proved, and in the proofs: line splices outside of directives, directives that go on
 into an empty line or behind a comment of several lines, trigraphs, digraphs, control characters,
-pragmas, #line, and headers that only the preprocessor could name. In what is
-built, besides: conditionals but for those below, and names that a compiler may have defined by
-itself. In harnesses: every conditional, as what stands in one may not be there.
+directives behind a comment, pragmas, #line, and headers that only the preprocessor could name. In
+what is built, besides: conditionals but for those below, and names that a compiler may have defined
+by itself or that promise something only to it. In harnesses: every conditional, as what stands in
+one may not be there.
 
 Of what is built a conditional may
 
@@ -13,7 +14,8 @@ Of what is built a conditional may
     give a number that a build may choose:  #ifndef KEEL_QUEUE_CAPACITY, with nothing but #define
     refuse a number:                        #if KEEL_QUEUE_CAPACITY > 255u, with nothing but #error
 
-and what proofs/units.toml lists under `conditionals`, with a reason.
+and what proofs/units.toml lists under `conditionals`, with a reason. Shapes of code and macros that
+only some of the tools would see through are refused here, too (shapes.py, macros.py).
 """
 
 from __future__ import annotations
@@ -24,7 +26,10 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from keel.audit import macros, shapes
+from keel.audit.places import THEOREM
 from keel.c import source as csource
+from keel.c.project import KEEL
 
 Finding = tuple[int, str]  # The line, and what is wrong there.
 Rule = Callable[[str, Path], Iterable[Finding]]
@@ -36,11 +41,24 @@ SPLICE = re.compile(r"\\[ \t]*$")
 DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(\w*)[ \t]*(.*)$")
 PLAIN = frozenset("include define error if ifdef ifndef else elif endif".split())
 RESERVED = re.compile(r"\b(?:__\w+|_[A-Z]\w*|linux|unix|i386|asm)\b")
+# A promise that only the compiler believes: provers take no note of it.
+PROMISED = re.compile(r"\brestrict\b")
 NUMBERS_ALONE = re.compile(
     r"(?:KEEL_\w+|[A-Z]+_[A-Z_]+|0[xX][0-9a-fA-F]+u?|\d+u?|[\s()<>=!&|+*-])*"
 )
 # A header for C++, of which neither the provers nor a compiler of C see anything else than nothing.
-FOR_CPP = "c_declarations.h"
+FOR_CPP = "include/keel/c_declarations.h"
+FOR_CPP_TEXT = """\
+#ifndef KEEL_C_DECLARATIONS_H
+#define KEEL_C_DECLARATIONS_H
+#ifdef __cplusplus
+#define KEEL_C_BEGIN extern "C" {
+#define KEEL_C_END   }
+#else
+#define KEEL_C_BEGIN
+#define KEEL_C_END
+#endif
+#endif"""
 
 
 @dataclass
@@ -78,6 +96,9 @@ def everywhere(text: str) -> Iterator[Finding]:
             yield number, "##: what it pastes together is in no text"
         if "_Pragma" in line:
             yield number, "_Pragma"
+        behind = DIRECTIVE.match(line) if number not in starts else None
+        if behind:
+            yield number, f"#{behind[1]} behind a comment"
         # Keys of verdicts have no comments and no empty lines, so neither may end a directive.
         if starts.get(number, number) != number and not line.strip():
             yield number, "a directive that goes on into an empty line"
@@ -86,6 +107,8 @@ def everywhere(text: str) -> Iterator[Finding]:
             first, last = (text.count("\n", 0, at) + 1 for at in comment.span())
             if first in starts and bare[comment.end() :].partition("\n")[0].strip():
                 yield last, "code behind a comment that began in a directive"
+    yield from shapes.in_annotations(text)
+    yield from macros.everywhere(text)
 
 
 def directives(lines: Sequence[str]) -> dict[int, int]:
@@ -152,9 +175,16 @@ def chooses_no_code(one: Conditional) -> bool:
     return one.kind == "if" and kinds == {"error"} and bool(NUMBERS_ALONE.fullmatch(one.condition))
 
 
-def in_what_is_built(text: str, name: str, allowed: Collection[str]) -> Iterator[Finding]:
-    """What must not be in a source or a header besides, as a compiler may see something else."""
+def in_what_is_built(
+    text: str, name: str, allowed: Collection[str], pointers: Collection[str] = frozenset()
+) -> Iterator[Finding]:
+    """What must not be in a source or a header besides, as a compiler may see something else.
+
+    `name` is its place in the project, `pointers` are names of types that are pointers.
+    """
     if name == FOR_CPP:
+        if " ".join(csource.without_prose(text).split()) != " ".join(FOR_CPP_TEXT.split()):
+            yield 1, "another text than audits know, which look no further into this header"
         return
     for one in conditionals(text):
         said = f"#{one.kind} {one.condition}"
@@ -163,8 +193,18 @@ def in_what_is_built(text: str, name: str, allowed: Collection[str]) -> Iterator
     for number, line in enumerate(csource.without_comments(text).split("\n"), 1):
         if match := RESERVED.search(line):
             yield number, f"`{match.group()}`, which a compiler may define by itself"
+        if match := PROMISED.search(line):
+            yield number, f"`{match.group()}`, a promise that no prover looks at"
         if "assert.h" in line and "include" in line:
             yield number, "<assert.h>, which a build may turn into nothing"
+    yield from macros.in_what_is_built(text)
+    yield from shapes.in_what_is_proved(text, pointers)
+
+
+def in_theorem(text: str, pointers: Collection[str]) -> Iterator[Finding]:
+    """What must not be in a theorem besides: WP proves it as it proves what is built."""
+    yield from macros.in_what_is_built(text)
+    yield from shapes.in_what_is_proved(text, pointers)
 
 
 def in_harness(text: str) -> Iterator[Finding]:
@@ -174,17 +214,25 @@ def in_harness(text: str) -> Iterator[Finding]:
 
 def problems(root: Path, allowed: Collection[str]) -> list[str]:
     """The disguises in a project; `allowed` are conditionals that a person has accepted."""
+    pointers = frozenset(
+        name
+        for folder in dict.fromkeys((root, KEEL))
+        for path in (*folder.glob("include/**/*.h"), *root.glob("src/**/*.[ch]"))
+        for name in shapes.pointers_in(csource.read(path))
+    )
+
+    def built_rule(text: str, path: Path) -> Iterable[Finding]:
+        return in_what_is_built(text, path.relative_to(root).as_posix(), allowed, pointers)
+
+    def proof_rule(text: str, path: Path) -> Iterable[Finding]:
+        if THEOREM in text[:500]:
+            return in_theorem(text, pointers)
+        return in_harness(text) if path.name.endswith("_harness.c") else ()
+
     found = [
-        *_of(
-            root,
-            ("include/**/*.h", "src/**/*.[ch]"),
-            lambda text, path: in_what_is_built(text, path.name, allowed),
-        ),
-        *_of(
-            root,
-            ("specs/model/*.[ch]", "proofs/**/*.[ch]"),
-            lambda text, path: in_harness(text) if path.name.endswith("_harness.c") else (),
-        ),
+        *_of(root, ("include/**/*.h", "src/**/*.[ch]"), built_rule),
+        *_of(root, ("specs/model/*.[ch]", "proofs/**/*.[ch]"), proof_rule),
+        *macros.problems(root),
     ]
     built = (*root.glob("include/**/*.h"), *root.glob("src/**/*.[ch]")) if allowed else ()
     used = {

@@ -19,6 +19,7 @@ from keel.audit import (
     determined,
     disguises,
     harness_rules,
+    places,
     theorems,
     unused,
 )
@@ -75,6 +76,9 @@ class Session:
     @contextlib.contextmanager
     def _programs(self) -> Iterator[tuple[Runner, Path]]:
         """What starts programs, and a folder for what they write; both end with the block."""
+        # No verdict of such a run may be kept, so it must not begin.
+        if strange := places.plug_ins(self._root):
+            raise ProjectError("\n".join(strange))
         # Not below build/: why3 puts a socket there, whose path must be short.
         scratch = Path(tempfile.mkdtemp(prefix="keel-prove-"))
         tools = {**self._tools.environment(), "TMPDIR": str(scratch)}
@@ -291,6 +295,7 @@ class Session:
         gathered.problems += completeness.strays(root, everything.values())
         allowed = read_exceptions(self._exceptions, list(everything))
         accepted = {text for one in allowed.values() for text in one.conditionals}
+        gathered.problems += places.problems(root, everything.values())
         gathered.problems += disguises.problems(root, accepted)
         gathered.problems += harness_rules.problems(root, everything.values())
         gathered.problems += unused.problems(root)

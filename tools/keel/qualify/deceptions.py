@@ -181,6 +181,103 @@ HIDDEN = (
     ),
     ("a text that is shown in another order", "A comment.", "A \u202e comment.", "U+202E"),
     ("assertions that a build may leave out", "<stdint.h>", "<assert.h>", "assert.h"),
+    (
+        "a pragma behind a comment",
+        "static inline",
+        '/* Fast. */ #pragma GCC optimize ("Ofast")\nstatic inline',
+        "#pragma behind a comment",
+    ),
+    (
+        "another file's name and line, behind a comment",
+        "static inline",
+        '/* Here it begins. */ #line 30 "a box.h"\nstatic inline',
+        "#line behind a comment",
+    ),
+    (
+        "a number that is defined in a body, for the bodies behind it, too",
+        RETURN,
+        f"#define KEEL_BOX_MORE 1u\n{RETURN}",
+        "#define in the body of keel_box",
+    ),
+    (
+        "an endless loop, by a macro",
+        "static inline",
+        "#define KEEL_BOX_WAIT(more) while (more)\nstatic inline",
+        "stands for `while`",
+    ),
+    (
+        "a lemma that nobody proves, by a macro",
+        "static inline",
+        "#define KEEL_BOX_SAID lemma\n/*@ KEEL_BOX_SAID none: 0 == 1; */\nstatic inline",
+        "stands for `lemma`",
+    ),
+    (
+        "a call of whatever a macro is given",
+        "static inline",
+        "#define KEEL_BOX_CALL(f, x) (f)(x)\nstatic inline",
+        "calls f",
+    ),
+    (
+        "a word that is another one",
+        "static inline",
+        "#define ensures requires\nstatic inline",
+        "not in capitals",
+    ),
+    (
+        "a number of the standard's headers that is another one",
+        "static inline",
+        "#define UINT32_MAX 7u\nstatic inline",
+        "the standard's",
+    ),
+    (
+        "a number that changes on its way",
+        "static inline",
+        "#define KEEL_BOX_MORE 1u\n#define KEEL_BOX_MORE 2u\nstatic inline",
+        "defined a second time",
+    ),
+    ("a promise to the compiler alone", RETURN, f"    int *restrict p;\n{RETURN}", "restrict"),
+    (
+        "an object of two types",
+        RETURN,
+        f"    *(const unsigned *)&x += 1;\n{RETURN}",
+        "cast to a pointer",
+    ),
+    (
+        "a function that no audit finds",
+        "static inline",
+        "static int (one)(int x) { return x; }\nstatic inline",
+        "a name in parentheses",
+    ),
+    (
+        "a call that no audit follows",
+        RETURN,
+        f"    (keel_box)(x);\n{RETURN}",
+        "a call that audits do not follow",
+    ),
+    (
+        "an assertion with the name of a loop's goal",
+        RETURN,
+        f"    //@ assert loop_variant_decrease: \\true;\n{RETURN}",
+        "a goal's own name",
+    ),
+    (
+        "a goal's name, by a macro",
+        "static inline",
+        "#define KEEL_BOX_NAME loop_variant_decrease\nstatic inline",
+        "a goal's own name",
+    ),
+    (
+        "a header that only annotations include",
+        "static inline",
+        "/*@ ensures \\true;\n#include <box.txt>\n*/\nstatic inline",
+        "a directive in an annotation",
+    ),
+    (
+        "ghost code behind a remark",
+        RETURN,
+        f"    /*@ // More.\n    ghost x++; */\n{RETURN}",
+        "does not begin its annotation",
+    ),
 )
 
 # Two states of a header of the user's, one behind the other.
