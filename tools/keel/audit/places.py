@@ -31,6 +31,11 @@ ONE_HEADER = re.compile(
     [ \t]*(?: //.* | /\*.* )?""",
     re.ASCII | re.VERBOSE,
 )
+# The plug-ins of Frama-C that proofs, or those plug-ins themselves, may load.
+PLUG_INS = frozenset(
+    "rtegen rte wp qed eva value variadic report inout from scope server callgraph metrics"
+    " instantiate markdown_report alias constant_propagation e_acsl sparecode slicing users".split()
+)
 MODULES = frozenset(
     (".ml", ".mli", ".mll", ".mly", ".cmi", ".cmo", ".cmx", ".cma", ".cmxa", ".cmxs", ".cmt")
 )
@@ -42,6 +47,7 @@ def plug_ins(root: Path) -> list[str]:
         f"{path.name}: Frama-C would load it in place of a plug-in of its own; remove it"
         for path in sorted(root.iterdir())
         if path.suffix.lower() in MODULES
+        and path.stem.lower().replace("-", "_").removeprefix("frama_c_") in PLUG_INS
     ]
 
 
