@@ -6,6 +6,7 @@ A trial gives what the tool complains about, piece by piece; nothing if it finds
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import re
@@ -25,6 +26,7 @@ from keel.boards.call_graph import Graph, StackError, parse
 from keel.boards.stack_bounds import Bounds
 from keel.c import source as csource
 from keel.c.project import Unit, find_units
+from keel.c.syntax import SyntaxProblem
 from keel.engines.cbmc import CHECKS as CBMC_CHECKS
 from keel.engines.wp import OWN, SMOKE, SMOKE_OF_FLOATS
 from keel.install import MACHDEP_FILE, TARGET_FLAGS, Toolchain, small_environment
@@ -105,7 +107,12 @@ def assumptions(tools: Toolchain, file: Path, option: str) -> list[str]:
 def hidden(tools: Toolchain, file: Path, option: str) -> list[str]:
     """What a header may show to one tool and not to another."""
     text = file.read_text(encoding="utf-8")
-    found = (*disguises.everywhere(text), *disguises.in_what_is_built(text, file.name, ()))
+    found: list[disguises.Finding] = []
+    # A text that is no C that can be parsed is refused before; what it is besides is said first.
+    with contextlib.suppress(SyntaxProblem):
+        for one in disguises.everywhere(text):
+            found.append(one)  # noqa: PERF402
+        found += disguises.in_what_is_built(text, file.name, ())
     return [f"{line}: {what}" for line, what in found]
 
 
