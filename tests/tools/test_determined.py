@@ -242,6 +242,71 @@ class Equality(DeterminedTest):
         )
         self.assert_found("status is written between")
 
+    def test_nothing_is_written_behind_its_back(self) -> None:
+        claim = PUT[PUT.index("    __CPROVER_assert((more") : -len("}\n")]
+        for name, function, line in (
+            ("a parameter", "settle(keel_box_t *a)\n{\n    a->count = 0u;", "settle(&box);"),
+            (
+                "a cast",
+                "settle(const keel_box_t *a)\n{\n    *(keel_box_t *)a = 0;",
+                "settle(&box);",
+            ),
+            ("what is kept", "settle(void)\n{\n    kept->count = 0u;", "settle();"),
+            (
+                "what is set anew",
+                "settle(const keel_box_t *a, keel_box_t *b)\n{\n    b = kept;\n    b->count = 0u;",
+                "settle(&box, &other);",
+            ),
+            (
+                "one further on",
+                "other(void)\n{\n    *kept = 0;\n}\n\nvoid s(void)\n{\n    other();",
+                "s();",
+            ),
+            ("what has no body", "other(void)\n{\n    ;", "settle();"),
+            ("a pointer", "other(void)\n{\n    ;", "kept->count = 0u;"),
+            ("a pointer of its own", "other(void)\n{\n    ;", "*at = model;"),
+            ("a copy", "other(void)\n{\n    ;", "memcpy(&box, &model, sizeof(box));"),
+            ("a copy by a pointer", "other(void)\n{\n    ;", "memcpy(at, &model, sizeof(box));"),
+            ("another of its name", "other(void)\n{\n    ;", "{ static keel_box_t box, model; }"),
+        ):
+            text = PUT.replace("void keel_box", f"static void {function}\n}}\n\nvoid keel_box")
+            with self.subTest(name):
+                self.write("proofs/box/keel_box_put_harness.c", text)
+                self.assertEqual(self.problems(), [])
+                changed = text.replace(claim, f"    {line}\n{claim}")
+                self.write("proofs/box/keel_box_put_harness.c", changed)
+                self.assert_found("box is written between the calls and the assertion")
+
+    def test_what_reads_may_be_called_between(self) -> None:
+        function = (
+            "static uint32_t asked;\n\nstatic bool full(const keel_box_t *a)\n{\n"
+            "    uint32_t sum[2] = {0u};\n\n    asked++;\n    sum[0] = a->count;\n"
+            "    return sum[0] != 0u;\n}\n\n"
+        )
+        text = PUT.replace("void keel_box", f"{function}void keel_box").replace(
+            "    __CPROVER_assert(status", "    (void)full(&box);\n    __CPROVER_assert(status"
+        )
+        self.write("proofs/box/keel_box_put_harness.c", text)
+        self.assertEqual(self.problems(), [])
+
+    def test_both_calls_are_given_the_same(self) -> None:
+        for line in ("more = 1u - more;", "set(&more);", "*at = 1u;"):
+            text = PUT.replace(
+                "    __CPROVER_assert(status", f"    {line}\n    __CPROVER_assert(status"
+            )
+            declared = "static void set(uint32_t *a)\n{\n    *a = 1u;\n}\n\nvoid keel_box"
+            with self.subTest(line):
+                self.write(
+                    "proofs/box/keel_box_put_harness.c", text.replace("void keel_box", declared)
+                )
+                self.assert_found("more: more is written between the calls")
+        given = PUT.replace("keel_box_put(&box, more)", "keel_box_put(&box, box.count)")
+        self.write(
+            "proofs/box/keel_box_put_harness.c",
+            given.replace("model_box_put(&model, more)", "model_box_put(&model, box.count)"),
+        )
+        self.assert_found("more: box is written between the calls")
+
     def test_floats_are_compared_bit_for_bit(self) -> None:
         self.change(
             "angle_harness.c",
@@ -557,6 +622,11 @@ float keel_box_angle_stand_in(const keel_box_t *box)
         self.assertEqual(self.bounds(), [])
         self.put(("int32_t status;", f"{assumed} && (more < 3u));"))
         self.assertEqual(self.bounds(), ["more < 3u"])
+        for sign in ("&", "=="):
+            one = f"keel_box_put_may(&box, more) {sign} (more < 3u)"
+            self.put(("int32_t status;", f"int32_t status;\n\n    __CPROVER_assume({one});"))
+            self.assertEqual(self.bounds(), [one])
+        self.put(("int32_t status;", f"{assumed} && (more < 3u));"))
         part = '[[part]]\nin = "keel_box_put_harness"\nof = "BOX_001"\ntexts = ["more < 3u"]\n'
         self.write("proofs/preconditions.toml", part)
         self.assertEqual(self.bounds(), [])

@@ -95,6 +95,86 @@ class RulesTest(unittest.TestCase):
                 with self.subTest(line, file=file):
                     self.assert_found(file, line, why)
 
+    def test_a_macro_hides_nothing(self) -> None:
+        for line, why in (
+            ("#define SETTLED __CPROVER_assume(raw != 7u)", "SETTLED has __CPROVER_assume in it"),
+            ("#define ANY nondet_int()", "the macro ANY has nondet_int in it"),
+            ("#define END return", "the macro END has return in it"),
+            ("#define ASIDE if (false)", "the macro ASIDE has if in it"),
+            ("#define SET MOST = 3u", "the macro SET has = in it: it does more than give a value"),
+            ("#define NEXT(x) ((x)++)", "the macro NEXT has ++ in it"),
+            ("#define TWO(x) x; x", "the macro TWO has ; in it"),
+            ("#define PASTED(x) nondet##x", "the macro PASTED has ## in it"),
+            ("#define CALLED settle(0)", "the macro CALLED names settle"),
+            ("#define CALL(f) f(0)", "the macro CALL names f"),
+            ("#define RAW \\\n    (raw - 1u)", "the macro RAW names raw"),
+            ("#define PAIR 1u, 2u", "the macro PAIR is no whole expression"),
+            ("#define OPEN (1u", "the macro OPEN is no whole expression"),
+        ):
+            for file in (PROOF, HARNESS, MODEL):
+                with self.subTest(line, file=file):
+                    self.assert_found(file, line, why)
+
+    def test_a_macro_may_be_an_expression(self) -> None:
+        text = (
+            "#define LIMIT (MOST + 0x1p-3f) /* of each */\n#define BIT(n) (1u << (n))\n"
+            '#define BOTH {true, (uint8_t)7u}\n#define NAME "a name = (x"\n'
+        )
+        write_text(self.root / MODEL, FILES[MODEL] + text)
+        self.assertEqual(self.problems(), [])
+
+    def test_a_variable_stands_for_no_function(self) -> None:
+        for text in (
+            "void f(void)\n{\n    int (*any_int)(void) = other;\n\n    any_int();\n}",
+            "void f(int (*any_int)(void))\n{\n    any_int();\n}",
+        ):
+            for file in (PROOF, HARNESS, MODEL):
+                with self.subTest(text, file=file):
+                    self.assert_found(file, text, "any_int is a variable that is called")
+
+    def test_a_variable_stands_for_no_other(self) -> None:
+        for text in (
+            "void f(void)\n{\n    int box;\n\n    {\n        static int box;\n    }\n}",
+            "void f(int box)\n{\n    if (box) {\n        int box = 1;\n    }\n}",
+        ):
+            with self.subTest(text):
+                self.assert_found(PROOF, text, "box is declared around, too")
+        self.assert_found(
+            PROOF, "void f(void)\n{\n    typedef int box_t;\n}", "a type is defined in a function"
+        )
+        text = (
+            "void f(int (*take)(int i))\n{\n    int i;\n\n"
+            "    for (int i = 0; i < 3; i++) {\n    }\n"
+            "    if (i) {\n        int j;\n    } else {\n        int j;\n    }\n}\n"
+        )
+        write_text(self.root / HARNESS, FILES[HARNESS] + text)
+        self.assertEqual(self.problems(), [])
+
+    def test_a_model_calls_what_has_a_body(self) -> None:
+        for text, why in (
+            ("void end(int status);", "end is declared here, without a body"),
+            ("void f(void)\n{\n    end();\n}", "calls end, which has no body"),
+            ("void f(void)\n{\n    exit(1);\n}", "exit ends what is asserted after it, too"),
+            ("void (*end)(int) = exit;", "exit ends what is asserted after it, too"),
+        ):
+            with self.subTest(text):
+                self.assert_found(MODEL, text, why)
+        self.assert_found("specs/model/box.h", "void end(int x);", "end is declared here, without")
+        text = (
+            "int nondet_int(void);\nstatic int f(void);\nstatic int f(void)\n{\n    return 1;\n}\n"
+        )
+        write_text(self.root / MODEL, FILES[MODEL] + text)
+        self.assertEqual(self.problems(), [])
+
+    def test_how_is_rounded_is_the_compilers(self) -> None:
+        for file in (PROOF, HARNESS, MODEL):
+            with self.subTest(file):
+                self.assert_found(
+                    file,
+                    "void f(void)\n{\n    __CPROVER_rounding_mode = 1;\n}",
+                    "__CPROVER_rounding_mode is CBMC's own",
+                )
+
     def test_what_hides_a_directive_or_a_way_past_an_assertion_is_refused(self) -> None:
         for text, why in (
             ('void f(void)\n{\n    _Pragma("x");\n}', "_Pragma has no place in proofs"),

@@ -4,16 +4,18 @@
 It must call both, with the same numbers, and assert, in an assertion that every execution reaches
 (in a loop, if it calls both there) and that stands after both calls: that the results are equal, if
 there is one; and of each object that the function may write, that it is the same as the model's in
-every field. Neither result nor object may be written between the calls and the assertions.
+every field. Neither result nor object may be written between the calls and the assertions, and
+nothing that both calls are given between the two.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from keel.audit.comparers import FLOATS, Comparers, Same, bare
+from keel.audit.harness_writes import ANY, Writes, assigned, names
 from keel.c import source as csource
 from keel.c import syntax
 from keel.c.declarations import Parameter, Signature, Structures, read, signatures
@@ -27,8 +29,6 @@ WHOLE = re.compile(
     r"\(uint32_t (?P<name>\w+) = 0u; (?P=name) < (?P<size>\w+); (?:(?P=name)\+\+|\+\+(?P=name))\)"
 )
 
-# What writes a variable.
-WRITES = ("assignment_expression", "update_expression", "init_declarator")
 JUMPS = ("break_statement", "continue_statement", "goto_statement")
 # What is around a place that not every execution reaches.
 CONDITIONAL = frozenset(
@@ -85,7 +85,7 @@ class Reader:
             return reading
         texts = read(closure(harness.unit.root, [harness.path]))
         comparison = _Comparison(
-            body, (code[0], model[0]), texts, self._structures, harness.defines
+            body, (code[0], model[0]), self._signature, texts, self._structures, harness.defines
         )
         reading.problems += comparison.start()
         reading.problems += comparison.results(self._signature.result, self._structures)
@@ -101,6 +101,7 @@ class _Comparison:
         self,
         body: str,
         calls: tuple[Call, Call],
+        signature: Signature,
         texts: Sequence[str],
         structures: Structures,
         defines: Sequence[str],
@@ -109,6 +110,7 @@ class _Comparison:
         self._code, self._model = calls
         self._comparers = Comparers(texts, structures, defines)
         self._claims = claims(body, texts)
+        self._writes = Writes(texts, {call.name: signature for call in calls})
 
     def start(self) -> list[str]:
         """What keeps a claim from being about both calls."""
@@ -149,7 +151,20 @@ class _Comparison:
             return self._equal(objects, parameter.base, structures, f"{parameter.name}:")
         if not parameter.type.endswith("*") and pair[0] != pair[1]:
             return [f"{parameter.name}: the model is given {pair[1]}, the function {pair[0]}"]
-        return []
+        return [
+            f"{parameter.name}: {name} is written between the calls"
+            for name in dict.fromkeys(names(pair[0]))
+            if pair[0] == pair[1] and {name, ANY} & self._written_between()
+        ]
+
+    def _written_between(self) -> set[str]:
+        """What is written by the first call and its result, and from there to the second."""
+        first, second = sorted((self._code, self._model), key=lambda call: call.start)
+        around = first.node.parent
+        results = (
+            {self._taken(first)} if around and written(first.node) != self._taken(first) else set()
+        )
+        return results | self._writes.within(self._body, (first.start, second.start))
 
     def _equal(
         self, pair: tuple[str, str], type_: str, structures: Structures, what: str
@@ -179,7 +194,7 @@ class _Comparison:
         for one in pair:
             root = re.match(r"\w+", one)
             calls_it = one in [written(call.node) for call in calls]
-            if root and not calls_it and self._written(root[0], *between):
+            if root and not calls_it and {root[0], ANY} & self._written(*between):
                 problems.append(f"{root[0]} is written between the calls and the assertion")
         if type_ in structures:
             same = self._comparers.of(name, type_)
@@ -193,13 +208,10 @@ class _Comparison:
             problems.append(f"{' and '.join(pair)}: floats are compared by float_same")
         return problems
 
-    def _written(self, variable: str, first: int, last: int) -> bool:
-        """Whether a variable or a part of it is written there, other than by the calls' results."""
-        results = [call.node for call in (self._code, self._model)]
-        return any(
-            first <= node.start_byte < last and name == variable and value not in results
-            for node, name, value in _assigned(self._body)
-        )
+    def _written(self, first: int, last: int) -> set[str]:
+        """What is written there, other than by the calls and their results."""
+        calls = [call.node for call in (self._code, self._model)]
+        return self._writes.within(self._body, (first, last), calls)
 
     def _over(self, claim: Claim) -> list[Node]:
         """The loops around a claim that are not around the calls, from within."""
@@ -244,7 +256,7 @@ class _Comparison:
 
     def _any_below(self, index: str) -> str:
         """What an arbitrary index stays below; "" if it is none, or is written again."""
-        values = [value for _, name, value in _assigned(self._body) if name == index]
+        values = [value for _, name, value in assigned(self._body) if name == index]
         if len(values) != 1 or not values[0]:
             return ""
         match = re.fullmatch(r"any_below\(\s*(\w+)\s*\)", written(values[0]))
@@ -280,21 +292,6 @@ def _asserts_alone(body: Node) -> bool:
         elif one.type != "comment" and not re.match(r"__CPROVER_assert\b", written(one)):
             return False
     return True
-
-
-def _root(node: Node | None) -> str:
-    """The variable that an expression is a part of, or that a declarator declares."""
-    return next(map(written, syntax.found(node, "identifier")), "") if node else ""
-
-
-def _assigned(body: str) -> Iterator[tuple[Node, str, Node | None]]:
-    """What writes a variable: where, which, and the value if it is one that is given."""
-    for node in syntax.found(syntax.parse(body), *WRITES):
-        target, value = (
-            next(filter(None, map(node.child_by_field_name, names)), None)
-            for names in (("left", "argument", "declarator"), ("right", "value"))
-        )
-        yield node, _root(target), value
 
 
 def _sides(node: Node, operator: str) -> list[Node]:

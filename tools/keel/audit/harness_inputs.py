@@ -133,7 +133,7 @@ class Reader:
         ]:
             plain = _resolved(text, known, self._shipped, harness)
             own = where == harness.name
-            predicate = PRECONDITION.fullmatch(text)
+            predicate = _is_precondition(text)
             part = self._parts.says(where, text)
             if predicate:
                 found.assumes.append(text.partition("(")[0] if own else where)
@@ -459,6 +459,13 @@ class _Scene:
         if any(NONDET.fullmatch(name) or name in self._drawing for name in names):
             tags.add(ANYTHING)
         return tags if names else {CONSTANT}
+
+
+def _is_precondition(text: str) -> bool:
+    """Whether a text is the call of a precondition or contract, and no more than that."""
+    if not PRECONDITION.fullmatch(text):
+        return False
+    return bare(syntax.expression(text)).type == "call_expression"
 
 
 def _root(node: Node) -> str:
