@@ -289,6 +289,18 @@ class Equality(DeterminedTest):
         self.write("proofs/box/keel_box_put_harness.c", text)
         self.assertEqual(self.problems(), [])
 
+    def test_the_model_has_an_object_of_its_own(self) -> None:
+        for declared, given in (
+            ("keel_box_t *other = &box;", "other"),
+            ("keel_box_t *other = &box;", "&*other"),
+            ("keel_box_t *other[1] = {&box};", "other[0]"),
+        ):
+            text = PUT.replace("    int32_t status;", f"    {declared}\n    int32_t status;")
+            text = text.replace("model_box_put(&model,", f"model_box_put({given},")
+            with self.subTest(given):
+                self.write("proofs/box/keel_box_put_harness.c", text)
+                self.assert_found(f"&box and {given} may be one object")
+
     def test_both_calls_are_given_the_same(self) -> None:
         for line in ("more = 1u - more;", "set(&more);", "*at = 1u;"):
             text = PUT.replace(

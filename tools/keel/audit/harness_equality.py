@@ -148,6 +148,9 @@ class _Comparison:
             objects = (_object(pair[0]), _object(pair[1]))
             if objects[0] == objects[1]:
                 return [f"{parameter.name}: both are given one object, {objects[0]}"]
+            one, other = (self._writes.pointed(self._body, text) for text in pair)
+            if ANY in one | other or one & other:
+                return [f"{parameter.name}: {pair[0]} and {pair[1]} may be one object"]
             return self._equal(objects, parameter.base, structures, f"{parameter.name}:")
         if not parameter.type.endswith("*") and pair[0] != pair[1]:
             return [f"{parameter.name}: the model is given {pair[1]}, the function {pair[0]}"]

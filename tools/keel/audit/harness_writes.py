@@ -73,6 +73,11 @@ class Writes:
             for name in self._by(node, own, frozenset())
         }
 
+    @staticmethod
+    def pointed(body: str, argument: str) -> set[str]:
+        """The variables of a body into which an argument may point."""
+        return set(_pointed(syntax.expression(argument), _own(syntax.parse(body), ())))
+
     def _by(self, node: Node, own: _Own, around: frozenset[str]) -> Iterator[str]:
         """What a node writes, seen from the body that it stands in."""
         if node.type == "call_expression":
