@@ -301,6 +301,25 @@ class Equality(DeterminedTest):
                 self.write("proofs/box/keel_box_put_harness.c", text)
                 self.assert_found(f"&box and {given} may be one object")
 
+    def test_both_calls_start_from_the_same(self) -> None:
+        for line in ("model.count = 9u - model.count;", "box.count = 0u;", "set(&model);"):
+            text = PUT.replace("    __CPROVER_assume(", f"    {line}\n    __CPROVER_assume(")
+            set_ = "static void set(keel_box_t *a)\n{\n    a->count = 1u;\n}\n\nvoid keel_box"
+            with self.subTest(line):
+                self.write("proofs/box/keel_box_put_harness.c", text.replace("void keel_box", set_))
+                self.assert_found("box: box or model is written after one was made of the other")
+        text = ANGLE.replace(
+            "box = nondet_box();", "box = nondet_box();\n    keel_box_t old = box;"
+        )
+        text = text.replace("angle(&box), e", "angle(&old), e")
+        self.write("proofs/box/keel_box_angle_harness.c", text)
+        self.write("proofs/box/keel_box_put_harness.c", PUT)
+        self.assertEqual(self.problems(), [])
+        for place in ("    const float", "    __CPROVER_assert"):
+            changed = text.replace(place, f"    old.count = 1u;\n{place}")
+            self.write("proofs/box/keel_box_angle_harness.c", changed)
+            self.assert_found("box or old is written after one was made of the other")
+
     def test_both_calls_are_given_the_same(self) -> None:
         for line in ("more = 1u - more;", "set(&more);", "*at = 1u;"):
             text = PUT.replace(
@@ -575,7 +594,7 @@ class Extent(DeterminedTest):
                 self.assertEqual(bound in found, bool(bound), found)
 
     def test_a_part_that_is_set_is_a_bound(self) -> None:
-        self.put(("    int32_t status;", "    int32_t status;\n\n    box.count = 3u;"))
+        self.put(("    keel_box_t model", "    box.count = 3u;\n    keel_box_t model"))
         self.assertEqual(self.bounds(), ["box.count = 3u"])
 
     def test_what_narrows_in_a_helper_is_a_bound(self) -> None:

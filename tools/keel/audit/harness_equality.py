@@ -5,7 +5,8 @@ It must call both, with the same numbers, and assert, in an assertion that every
 (in a loop, if it calls both there) and that stands after both calls: that the results are equal, if
 there is one; and of each object that the function may write, that it is the same as the model's in
 every field. Neither result nor object may be written between the calls and the assertions, and
-nothing that both calls are given between the two.
+nothing that both calls are given between the two, or, of two objects of which one was made of the
+other, from there to the calls.
 """
 
 from __future__ import annotations
@@ -151,14 +152,34 @@ class _Comparison:
             one, other = (self._writes.pointed(self._body, text) for text in pair)
             if ANY in one | other or one & other:
                 return [f"{parameter.name}: {pair[0]} and {pair[1]} may be one object"]
-            return self._equal(objects, parameter.base, structures, f"{parameter.name}:")
+            return [
+                *self._equal(objects, parameter.base, structures, f"{parameter.name}:"),
+                *self._start(parameter.name, pair),
+            ]
         if not parameter.type.endswith("*") and pair[0] != pair[1]:
             return [f"{parameter.name}: the model is given {pair[1]}, the function {pair[0]}"]
+        if pair[0] != pair[1]:
+            return self._start(parameter.name, pair)
         return [
             f"{parameter.name}: {name} is written between the calls"
             for name in dict.fromkeys(names(pair[0]))
-            if pair[0] == pair[1] and {name, ANY} & self._written_between()
+            if {name, ANY} & self._written_between()
         ]
+
+    def _start(self, name: str, pair: tuple[str, str]) -> list[str]:
+        """Whether two objects start as copies, if one comes of the other: written since by none."""
+        both = {re.sub(r"\W.*", "", _object(text), flags=re.DOTALL) for text in pair}
+        first, last = sorted((self._code.start, self._model.start))
+        copies = [
+            node.end_byte
+            for node, target, value in assigned(self._body)
+            if value and node.end_byte <= first and {target, written(value)} == both
+        ]
+        if copies and both & self._written(max(copies), last):
+            return [
+                f"{name}: {' or '.join(sorted(both))} is written after one was made of the other"
+            ]
+        return []
 
     def _written_between(self) -> set[str]:
         """What is written by the first call and its result, and from there to the second."""
