@@ -5,7 +5,8 @@
 // covers: keel_voter_combine model_voter_combine
 //
 // Chosen samples and weights: zeros of both signs, which rounding to 0 brings to light; values just
-// beyond the range; none that counts; the largest first. All: keel_voter_combine_harness.c, where z3 finds no example.
+// beyond the range; none that counts; the largest first. All: keel_voter_combine_harness.c, where
+// z3 finds no example.
 #include "../common/voter_proof.h"
 
 #define POINTS 9u

@@ -5,8 +5,8 @@
 // covers: keel_voter_scale is_above model_voter_scale
 //
 // Chosen thresholds, slopes and outputs: a that grows with the output, on either side of 0; one at
-// its limit, where n a is within the range and beyond it. All: keel_voter_scale_harness.c, where z3 finds no
-// example.
+// its limit, where n a is within the range and beyond it. All: keel_voter_scale_harness.c, where z3
+// finds no example.
 #include "../common/voter_proof.h"
 
 #define POINTS 4u

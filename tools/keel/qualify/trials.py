@@ -111,7 +111,7 @@ def hidden(tools: Toolchain, file: Path, option: str) -> list[str]:
     # A text that is no C that can be parsed is refused before; what it is besides is said first.
     with contextlib.suppress(SyntaxProblem):
         for one in disguises.everywhere(text):
-            found.append(one)  # noqa: PERF402
+            found.append(one)
         found += disguises.in_what_is_built(text, file.name, ())
     return [f"{line}: {what}" for line, what in found]
 
