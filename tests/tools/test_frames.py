@@ -202,6 +202,29 @@ class Assertions(Tree):
         assertions.update(self.unit, self.harnesses("A_001: a"))
         self.assertFalse(assertions.update(self.unit, self.harnesses()))
 
+    def left_open(self, name: str, *texts: str) -> list[str]:
+        """What is wrong where WP leaves keel_box_fill to a harness that asserts these."""
+        entries = [{"name": "x", "description": text, "status": "SUCCESS"} for text in texts]
+        return assertions.left_open(
+            self.unit, {"keel_box_fill": "why"}, {name: {"assertions": entries}}
+        )
+
+    def test_a_postcondition_that_wp_leaves_needs_an_assertion_of_its_name(self) -> None:
+        own = "keel_box_fill_harness"
+        self.assertEqual(self.left_open(own, "BOX_002: it holds six"), [])
+        for texts in ((), ("BOX_002_six: it holds six",), ("it holds six, BOX_002: so",)):
+            [problem] = self.left_open(own, *texts)
+            self.assertIn("keel_box_fill: WP leaves BOX_002 to CBMC", problem)
+
+    def test_an_assertion_of_a_harness_that_does_not_cover_the_function_is_none(self) -> None:
+        [problem] = self.left_open("keel_box_put_harness", "BOX_002: it holds six")
+        self.assertIn("no harness that covers the function", problem)
+
+    def test_a_postcondition_that_wp_leaves_needs_a_label(self) -> None:
+        self.write("include/keel/rtos/box.h", HEADER.replace("ensures BOX_002: ", "ensures "))
+        [problem] = self.left_open("keel_box_fill_harness", "BOX_002: it holds six")
+        self.assertIn("without a label", problem)
+
 
 class Unused(Tree):
     def test_what_is_used_is_fine(self) -> None:

@@ -7,13 +7,19 @@ vanishes, or a whole harness, is a failure until a person has accepted it with -
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
 from keel.base.files import write_text
+from keel.c import source as csource
 from keel.c.project import Unit
+from keel.judge import wp_frames
+from keel.judge.harness import read_harness
+
+POSTCONDITION = re.compile(r"\bensures\s+(?:(?P<label>\w+)\s*:(?!:))?")
 
 
 def list_of(unit: Unit) -> Path:
@@ -62,3 +68,33 @@ def problems(unit: Unit, harnesses: Mapping[str, Mapping[str, Any]]) -> list[str
         for line in (Counter(seen) - Counter(listed)).elements()
     ]
     return found
+
+
+def left_open(
+    unit: Unit, left: Collection[str], harnesses: Mapping[str, Mapping[str, Any]]
+) -> list[str]:
+    """The postconditions of functions that WP leaves to CBMC, and that no harness asserts.
+
+    WP takes them for granted at each call. A harness that covers the function has to assert them
+    under their labels; people judge whether clause and assertion say the same.
+    """
+    covers = {path.stem: read_harness(unit, path).covers for path in unit.harnesses}
+    asserted = {
+        (function, assertion["description"].partition(":")[0])
+        for name, harness in harnesses.items()
+        for assertion in harness["assertions"]
+        for function in covers.get(name, ())
+    }
+    found = []
+    for path in unit.own_files:
+        for function, contract in wp_frames.contracts(csource.read(path)):
+            for clause in POSTCONDITION.finditer(contract if function in left else ""):
+                label = clause["label"]
+                if not label:
+                    found.append(f"{function}: WP leaves a postcondition without a label to CBMC")
+                elif (function, label) not in asserted:
+                    found.append(
+                        f"{function}: WP leaves {label} to CBMC, and no harness that covers the"
+                        f' function has an assertion "{label}: ..."'
+                    )
+    return list(dict.fromkeys(found))

@@ -339,6 +339,7 @@ class Session:
             shown = assertions.list_of(unit).relative_to(self._root)
             print(f"{unit.name:<10} {shown} rewritten: review the difference")
         result.problems += assertions.problems(unit, harnesses)
+        result.problems += assertions.left_open(unit, result.exceptions.not_by_wp, harnesses)
 
     def _check_goal_list(self, result: report.UnitResult) -> None:
         """Compare the goals with the fixed list, or make the list anew."""
