@@ -6,7 +6,8 @@
 // covers: keel_voter_step
 //
 // As keel_voter_step_harness.c, every valid channel of 2 to 4 sensors and every bit pattern of the
-// samples: the contract of a vote, clause by clause.
+// samples: the contract of a vote, clause by clause; and that it leaves probation alone, which the
+// virtual unit's stand-in for a vote (proofs/virtual_imu/any_vote.h) does.
 #include "voter_stand_ins.h"
 
 static keel_voter_t old;
@@ -180,6 +181,8 @@ void keel_voter_step__clauses_harness(void)
     for (uint32_t i = 0u; i < SENSORS; i++) {
         __CPROVER_assert(!old.sensor[i].latched || now.sensor[i].latched,
                          "VOT_011_stays: what is latched stays so");
+        __CPROVER_assert(now.sensor[i].probation == old.sensor[i].probation,
+                         "VOT_021_elsewhere: a vote leaves probation as it is");
         if (i < now.config.sensors) {
             check_sample(i);
             check_counts(i);
