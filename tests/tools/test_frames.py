@@ -12,7 +12,7 @@ import unittest
 from pathlib import Path
 from typing import Any
 
-from keel.audit import assertions, unused
+from keel.audit import assertions, completeness, unused
 from keel.c.project import Unit, find_units
 from keel.judge import wp_frames, wp_targets
 from keel.judge.settings import Exceptions
@@ -152,6 +152,23 @@ class Frames(Tree):
     def test_only_what_wp_leaves_may_leave_a_clause(self) -> None:
         entry = "keel_box_fill put_small keel_box_fill_harness"
         self.complaint(entry, "only what not_by_wp names", left={})
+
+    def test_a_label_that_wp_leaves_stands_for_one_clause(self) -> None:
+        entries = ["helper stays keel_box_fill_harness", "keel_box_fill put_small x_harness"]
+        self.assertEqual(completeness.left_twice(self.unit, entries), [])
+        again = SOURCE.replace(
+            "    while (*box > 3)", "    //@ assert stays: *box < 9;\n    while (*box > 3)"
+        )
+        self.write("src/rtos/box.c", again)
+        [problem] = completeness.left_twice(self.unit, entries)
+        self.assertIn("helper, stays: stands for more than", problem)
+        shared = HEADER.replace(
+            "ensures BOX_002:", "requires put_small: \\true;\n  @ ensures BOX_002:"
+        )
+        self.write("include/keel/rtos/box.h", shared)
+        self.write("src/rtos/box.c", SOURCE)
+        [problem] = completeness.left_twice(self.unit, entries)
+        self.assertIn("keel_box_fill, put_small: stands for more than", problem)
 
     def test_a_ghost_function_has_its_contract_to_itself(self) -> None:
         ghost = (

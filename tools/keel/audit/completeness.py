@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -152,6 +153,33 @@ def left_by_wp(unit: Unit, excepted: Mapping[str, str], root: Path) -> list[str]
         elif name not in covered:
             place = unit.folder.relative_to(root)
             problems.append(f"{name} is proved by neither engine: no harness in {place} covers it")
+    return problems
+
+
+def left_twice(unit: Unit, entries: Iterable[str]) -> list[str]:
+    """Labels that WP leaves in a function, where they stand for more than the one clause.
+
+    WP leaves every goal of a label. `entries` are those of by_cbmc: function, clause and harness.
+    """
+    said: dict[str, list[str]] = {}
+    for path in unit.own_files:
+        text = csource.read(path)
+        for name, contract in wp_frames.contracts(text):
+            said.setdefault(name, []).append(contract)
+        for function in csource.defined(text):
+            if function.body:
+                inner = csource.acsl(text[slice(*function.body)])
+                said.setdefault(function.name, []).append(" ".join(one for _, one in inner))
+    problems = []
+    for function, clause, _ in (entry.split() for entry in dict.fromkeys(entries)):
+        annotations = " ".join(said.get(function, []))
+        stated = len(re.findall(rf"\b{clause}\s*:(?!:)", annotations))
+        invariants = wp_frames.INVARIANT.findall(annotations).count(clause)
+        if stated > min(invariants, 1):
+            problems.append(
+                f"units.toml: [{unit.name}] by_cbmc: {function}, {clause}: stands for more than"
+                " the one clause, and WP would leave all of them"
+            )
     return problems
 
 

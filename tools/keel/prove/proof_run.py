@@ -309,6 +309,7 @@ class Session:
             result.problems += completeness.unread_contracts(unit, root)
             result.problems += completeness.undefined_functions(unit, exceptions.no_body, root)
             result.problems += completeness.left_by_wp(unit, exceptions.not_by_wp, root)
+            result.problems += completeness.left_twice(unit, exceptions.by_cbmc)
             result.problems += wp_frames.problems(unit, exceptions, find_units(root).values())
             if "cbmc" in self._choice.engines:
                 files = [path for path in closure(root, unit.harnesses) if "proofs" in path.parts]
