@@ -171,13 +171,13 @@ def left_twice(unit: Unit, entries: Iterable[str]) -> list[str]:
                 inner = csource.acsl(text[slice(*function.body)])
                 said.setdefault(function.name, []).append(" ".join(one for _, one in inner))
     problems = []
-    for function, clause, _ in (entry.split() for entry in dict.fromkeys(entries)):
-        annotations = " ".join(said.get(function, []))
+    for left, clause, _ in (entry.split() for entry in dict.fromkeys(entries)):
+        annotations = " ".join(said.get(left, []))
         stated = len(re.findall(rf"\b{clause}\s*:(?!:)", annotations))
         invariants = wp_frames.INVARIANT.findall(annotations).count(clause)
         if stated > min(invariants, 1):
             problems.append(
-                f"units.toml: [{unit.name}] by_cbmc: {function}, {clause}: stands for more than"
+                f"units.toml: [{unit.name}] by_cbmc: {left}, {clause}: stands for more than"
                 " the one clause, and WP would leave all of them"
             )
     return problems

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -176,7 +176,7 @@ def chooses_no_code(one: Conditional) -> bool:
 
 
 def in_what_is_built(
-    text: str, name: str, allowed: Collection[str], pointers: Collection[str] = frozenset()
+    text: str, name: str, allowed: Collection[str], pointers: Set[str] = frozenset()
 ) -> Iterator[Finding]:
     """What must not be in a source or a header besides, as a compiler may see something else.
 
@@ -201,7 +201,7 @@ def in_what_is_built(
     yield from shapes.in_what_is_proved(text, pointers)
 
 
-def in_theorem(text: str, pointers: Collection[str]) -> Iterator[Finding]:
+def in_theorem(text: str, pointers: Set[str]) -> Iterator[Finding]:
     """What must not be in a theorem besides: WP proves it as it proves what is built."""
     yield from macros.in_what_is_built(text)
     yield from shapes.in_what_is_proved(text, pointers)

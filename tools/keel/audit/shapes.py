@@ -10,7 +10,7 @@ look like WP's own names of goals, by which a goal is judged.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Set
 
 from keel.c import source as csource
 from keel.c.syntax import Node, found, parse, written
@@ -38,17 +38,17 @@ def in_annotations(text: str) -> Iterator[tuple[int, str]]:
 
 def _in_annotation(inner: str, whole: str) -> Iterator[tuple[int, str]]:
     """Places in an annotation, which is given without its remarks and with them."""
-    for match in (*GOAL_NAME.finditer(inner), *LABEL.finditer(inner)):
-        yield match.start(), f"{match.group()}: it looks like a goal's own name"
-    if match := re.search(r'"', inner):
-        yield match.start(), "a string in an annotation: no name is read from there"
-    if match := re.search(r"^[\s@]*#", inner, re.MULTILINE):
-        yield match.end(), "a directive in an annotation"
-    if (match := re.search(r"\bghost\b", inner)) and not re.match(r"\s*ghost\b", whole):
-        yield match.start(), "ghost code that does not begin its annotation"
+    for named in (*GOAL_NAME.finditer(inner), *LABEL.finditer(inner)):
+        yield named.start(), f"{named.group()}: it looks like a goal's own name"
+    if text := re.search(r'"', inner):
+        yield text.start(), "a string in an annotation: no name is read from there"
+    if directive := re.search(r"^[\s@]*#", inner, re.MULTILINE):
+        yield directive.end(), "a directive in an annotation"
+    if (ghost := re.search(r"\bghost\b", inner)) and not re.match(r"\s*ghost\b", whole):
+        yield ghost.start(), "ghost code that does not begin its annotation"
 
 
-def in_what_is_proved(text: str, pointers: Collection[str] = ()) -> Iterator[tuple[int, str]]:
+def in_what_is_proved(text: str, pointers: Set[str] = frozenset()) -> Iterator[tuple[int, str]]:
     """What is wrong in a source, a header or a theorem; `pointers` are names of pointers' types."""
     yield from _directives_in_bodies(text)
     tree = parse(csource.with_ghosts(text))
