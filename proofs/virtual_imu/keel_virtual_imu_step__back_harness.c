@@ -6,9 +6,9 @@
 // checks: assertions
 // covers: keel_virtual_imu_step
 //
-// What a channel of a unit that is back went through, without the model, and with the voter's own
-// probation: every virtual unit of 2 to 4 units, every sample, and whatever a vote comes to. The
-// floats of a channel may be anything. All other checks: keel_virtual_imu_step_harness.c and
+// The votes that a channel of a unit that is back went through, without the model, and with the
+// voter's own probation: every virtual unit of 2 to 4 units, every sample, whatever a vote is.
+// The floats of a channel may be anything. All other checks: keel_virtual_imu_step_harness.c and
 // keel_voter_reconsider_harness.c.
 #include "any_vote.h"
 

@@ -6,7 +6,7 @@
 // checks: assertions
 // covers: keel_virtual_imu_step note_verdicts channel_bit
 //
-// What is noted of a vote, without the model: every virtual unit of 2 to 4 units, every sample, and
+// The notes on a vote, without the model: every virtual unit of 2 to 4 units, every sample, and
 // whatever a vote comes to. The floats of a channel may be anything, as the virtual unit does not
 // look at them. That each channel is valid in full when it votes:
 // keel_virtual_imu_step__order_harness.c. All other checks: keel_virtual_imu_step_harness.c.

@@ -19,6 +19,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from keel.audit import harness_writes
 from keel.audit.comparers import bare
 from keel.c import source as csource
 from keel.c import syntax
@@ -218,7 +219,7 @@ class _Scene:
         self._tags = self._flow()
         # The variables of loops.
         self._counters = {
-            _root(head)
+            harness_writes.root(head)
             for loop in syntax.found(self._functions[harness.name].tree, "for_statement")
             if (head := loop.child_by_field_name("initializer"))
         }
@@ -328,7 +329,7 @@ class _Scene:
             right = node.child_by_field_name("right") or node.child_by_field_name("value")
             if not left or not right or (own and node.start_byte > self._call.start):
                 continue
-            if sources is not None and _root(left) not in sources:
+            if sources is not None and harness_writes.root(left) not in sources:
                 continue
             part = left.type in ("field_expression", "subscript_expression")
             if (part and not stands_in and self._is_constant(right, own)) or self._is_one_of(right):
@@ -380,14 +381,16 @@ class _Scene:
         if one.name != self._harness.name:
             return
         sources = self._sources()
-        statics = [node for node in _file_level(self._texts) if _root(node) in self._statics]
+        statics = [
+            node for node in _file_level(self._texts) if harness_writes.root(node) in self._statics
+        ]
         for node in syntax.found(one.tree, "array_declarator") + [
             array for static in statics for array in syntax.found(static, "array_declarator")
         ]:
             size = written(node.child_by_field_name("size"))
             own = [name for name in re.findall(r"[A-Z]\w+", size) if self._is_own(name, known)]
-            if _root(node) in sources and (own or number(size, {}) is not None):
-                yield f"{_root(node)}[{size}]"
+            if harness_writes.root(node) in sources and (own or number(size, {}) is not None):
+                yield f"{harness_writes.root(node)}[{size}]"
 
     def _is_own(self, name: str, known: Macros) -> bool:
         """Whether a macro's number is that of the proofs, not one that is shipped."""
@@ -419,7 +422,7 @@ class _Scene:
             if target and value:
                 names = {written(one) for one in syntax.found(value, "identifier")}
                 constant = set() if names or self._is_drawn(value) else {CONSTANT}
-                yield _root(target), names, constant
+                yield harness_writes.root(target), names, constant
         for node in syntax.found(tree, "call_expression"):
             name = written(node.child_by_field_name("function"))
             given = node.child_by_field_name("arguments")
@@ -430,7 +433,7 @@ class _Scene:
             arguments = [one for one in given.named_children if one.type != "comment"]
             for one, parameter in zip(arguments, self._functions[name].parameters, strict=False):
                 if parameter.written:
-                    yield _root(one), names, tags
+                    yield harness_writes.root(one), names, tags
             for static in self._statics & set(self._mentions(name)):
                 yield static, names, tags
 
@@ -468,10 +471,6 @@ def _is_precondition(text: str) -> bool:
     return bare(syntax.expression(text)).type == "call_expression"
 
 
-def _root(node: Node) -> str:
-    return next(map(written, syntax.found(node, "identifier")), "")
-
-
 def _conjuncts(node: Node) -> Iterator[Node]:
     """What && joins in an assumption."""
     node = bare(node)
@@ -500,16 +499,16 @@ def _tables(texts: Iterable[str]) -> set[str]:
     for node in _file_level(texts):
         for one in syntax.found(node, "init_declarator"):
             if syntax.found(one, "array_declarator") and syntax.found(one, "initializer_list"):
-                found.add(_root(one))
+                found.add(harness_writes.root(one))
     return found
 
 
 def _statics(texts: Iterable[str]) -> set[str]:
     """Variables at file level."""
     return {
-        _root(node)
+        harness_writes.root(node)
         for node in _file_level(texts)
-        if not syntax.found(node, "function_declarator") and _root(node)
+        if not syntax.found(node, "function_declarator") and harness_writes.root(node)
     }
 
 

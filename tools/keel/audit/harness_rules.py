@@ -27,6 +27,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from keel.audit.harness_inputs import CONDITIONS, ENDINGS, taken
+from keel.audit.harness_writes import declared
 from keel.c import source as csource
 from keel.c import syntax
 from keel.c.project import Unit, closure, include_folders, shown
@@ -52,11 +53,11 @@ MACROS = {
     ("proofs/scheduler/isolation.c", "SET_STAYS"),
     ("proofs/scheduler/isolation.c", "ASKED_ABOUT"),
 }
-# What narrows, or leads past an assertion, and has no place in a macro.
+# Words that narrow, or lead past an assertion, and have no place in a macro.
 NARROWING = re.compile(
     r"__CPROVER_(?!assert\b)\w*|nondet_\w*|\b(?:return|for|break|continue|switch|case|default)\b"
 )
-# What does more than give a value.
+# Words and signs that do more than give a value.
 STATEMENT = re.compile(
     r"\b(?:if|else|while|do|typedef|static|extern|const|struct|enum|union)\b"
     r"|(?<![<>=!])=(?!=)|\+\+|--|;|##?"
@@ -67,7 +68,7 @@ LITERAL = re.compile(
 )
 # Names in small letters that a macro may have: types, constants, and a constant of the compiler's.
 PLAIN = re.compile(r"u?int(?:8|16|32|64)?(?:_t)?|float|double|bool|true|false|__builtin_inff")
-# What ends a program, or an execution, wherever it is declared.
+# Functions that end a program, or an execution, wherever they are declared.
 ENDS = frozenset(
     "exit _exit _Exit quick_exit abort raise longjmp __builtin_unreachable __builtin_trap".split()
 )
@@ -224,8 +225,8 @@ def _names(text: str) -> Iterator[tuple[int, str]]:
 
 def _shadows(function: Node) -> Iterator[tuple[int, str]]:
     """The variables of a function that stand for one that is declared around, or for a function."""
-    declared = [
-        (_declared(declarator), node)
+    variables = [
+        (declared(declarator), node)
         for node in syntax.found(function, "declaration", "parameter_declaration")
         if node.type == "declaration" or _is_own(node, function)
         for declarator in node.children_by_field_name("declarator")
@@ -236,7 +237,7 @@ def _shadows(function: Node) -> Iterator[tuple[int, str]]:
             "a type is defined in a function: it may bear another's name",
         )
     called = {call.name for call in csource.calls(function, r"\w+")}
-    for name, node in declared:
+    for name, node in variables:
         line = node.start_point.row + 1
         if name in called:
             yield line, f"{name} is a variable that is called: it may bear a function's name"
@@ -244,7 +245,7 @@ def _shadows(function: Node) -> Iterator[tuple[int, str]]:
         counts = scope and scope.type == "for_statement"
         around = [
             other.parent
-            for one, other in declared
+            for one, other in variables
             if one == name and other != node and other.parent != scope
         ]
         if scope and not counts and any(one and _holds(one, scope) for one in around):
@@ -266,18 +267,6 @@ def _holds(outer: Node, inner: Node) -> bool:
     if outer.type == "parameter_list":
         return True
     return outer.start_byte <= inner.start_byte and inner.end_byte <= outer.end_byte
-
-
-def _declared(node: Node) -> str:
-    """The name that a declarator declares."""
-    return next(
-        (
-            written(one)
-            for one in syntax.found(node, "identifier")
-            if not (one.parent and one.parent.child_by_field_name("size") == one)
-        ),
-        "",
-    )
 
 
 def _without_bodies(root: Path, code: Mapping[Path, str]) -> Iterator[str]:

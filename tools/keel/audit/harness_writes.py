@@ -19,15 +19,15 @@ from keel.c.declarations import Signature, signatures
 from keel.c.syntax import Node, written
 
 ANY = "*"
-# What writes a variable.
+# Nodes that write a variable.
 WRITES = ("assignment_expression", "update_expression", "init_declarator")
-# What writes nothing: CBMC's own, those of the language's library, and macros, which neither assign
-# nor call (keel.audit.harness_rules).
+# Functions that write nothing: CBMC's own, those of the language's library, and macros, which
+# neither assign nor call (keel.audit.harness_rules).
 NOTHING = re.compile(
     r"__CPROVER_(?:assert|assume|equal|r_ok|uninterpreted_\w+)|nondet_\w+"
     r"|memcmp|is(?:nan|inf|finite)|signbit|__builtin_inff|[A-Z][A-Z0-9_]*"
 )
-# What writes what its first argument points to.
+# Functions that write what their first argument points to.
 FIRST = ("memcpy", "memset", "memmove", "__CPROVER_havoc_object")
 
 
@@ -85,7 +85,7 @@ class Writes:
         elif node.type == "declaration":
             # One of a name that is declared elsewhere, too, stands for another thing.
             every = node.children_by_field_name("declarator")
-            yield from (name for one in every if (name := _declared(one)) in own.twice)
+            yield from (name for one in every if (name := declared(one)) in own.twice)
         else:
             yield from _target(_left(node), own)
 
@@ -154,7 +154,7 @@ def _value(node: Node) -> Node | None:
     return _field(node, "right", "value")
 
 
-def _declared(node: Node | None) -> str:
+def declared(node: Node | None) -> str:
     """The name that a declarator declares; not one in the size of an array."""
     while node and node.type != "identifier":
         inner = node.child_by_field_name("declarator")
@@ -165,13 +165,12 @@ def _declared(node: Node | None) -> str:
 
 def _own(tree: Node, parameters: Collection[str]) -> _Own:
     pairs = [
-        (_declared(one), one)
+        (declared(one), one)
         for node in syntax.found(tree, "declaration")
         for one in node.children_by_field_name("declarator")
     ]
     every: Mapping[str, Node] = dict(pairs)
-    declared = [name for name, _ in pairs]
-    twice = {name for name in every if declared.count(name) > 1}
+    twice = {name for name in every if [one for one, _ in pairs].count(name) > 1}
     arrays = {
         name
         for name, node in every.items()
@@ -199,7 +198,7 @@ def _target(node: Node | None, own: _Own) -> Iterator[str]:
     if node is None:
         yield ANY
     elif node.type.endswith("declarator"):
-        yield _declared(node)
+        yield declared(node)
     elif node.type == "identifier":
         yield written(node)
     elif node.type == "field_expression" and written(node.child_by_field_name("operator")) == ".":
