@@ -482,6 +482,7 @@ void keel_mode_step(keel_mode_t *mode, const keel_mode_input_t *input)
     const bool frame = has_frame(input);
     bool moved;
     bool attempt;
+    bool arms;
     uint32_t events;
 
     look_at_facts(mode, input, frame);
@@ -489,8 +490,9 @@ void keel_mode_step(keel_mode_t *mode, const keel_mode_input_t *input)
     mode->state_us = add_us(mode->state_us, input->elapsed_us);
     moved = heed_mode_switch(mode, frame);
     attempt = heed_arm_switch(mode);
+    arms = try_to_arm(mode, input->checks, attempt);
     events = events_of(mode, frame) | pilot_requests(mode, moved) |
-             event_when(try_to_arm(mode, input->checks, attempt), KEEL_MODE_PILOT_ARMS);
+             event_when(arms, KEEL_MODE_PILOT_ARMS);
     change_state(mode, events);
     choose_mode(mode);
 }

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from keel.audit import disguises
+from keel.audit import disguises, shapes
 from keel.base.files import write_text
 from keel.c.syntax import SyntaxProblem
 from keel.qualify.deceptions import BUILT, HIDDEN
@@ -72,3 +72,24 @@ class Projects(unittest.TestCase):
         self.write("include/keel/rtos/box.h", text.replace("    return", "    _Bad();\n    return"))
         [problem] = self.problems()
         self.assertIn("box.h:15: `_Bad`", problem)
+
+    def test_an_address_is_told_from_a_number(self) -> None:
+        held = (
+            "typedef struct box {\n    const char *name;\n    char all[4];\n    char c;\n} box_t;\n"
+        )
+        text = "static long f(const box_t *box, const char *p, long n)\n{{\n    return {};\n}}\n"
+        fields = shapes.pointers_in([held])
+        for address in ("(long)p", "(long)(p + 1)", "(long)(box->name)", "(int)&n", '(long)"a"'):
+            with self.subTest(address):
+                [(line, what)] = shapes.in_what_is_proved(text.format(address), fields)
+                self.assertEqual((line, f"`{address}`: an address as a number" in what), (3, True))
+        for number in ("(long)(p - box->name)", "(long)*p", "(long)p[1]", "(int)box->c", "(int)n"):
+            with self.subTest(number):
+                self.assertEqual([*shapes.in_what_is_proved(text.format(number), fields)], [])
+
+    def test_the_number_of_elements_has_one_value_everywhere(self) -> None:
+        text = "static int all[4];\nstatic int f(void)\n{{\n    return {};\n}}\n"
+        good = text.format("sizeof(all) / sizeof all[0]")
+        self.assertEqual([*shapes.in_what_is_proved(good)], [])
+        self.assertEqual(len([*shapes.in_what_is_proved(text.format("sizeof(all)"))]), 1)
+        self.assertEqual(len([*shapes.in_what_is_proved(text.format("16 / sizeof(int)"))]), 1)

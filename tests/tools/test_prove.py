@@ -917,6 +917,19 @@ class Rules(TreeTest):
         [problem] = completeness.strays(self.root, units)
         self.assertIn("src/rtos/hidden.c: it belongs to no unit", problem)
 
+    def test_a_function_is_defined_in_one_source(self) -> None:
+        self.assertEqual(completeness.defined_twice(self.root), [])
+        for name, called in (("one", "keel_queue_add"), ("two", "one_more"), ("three", "one_more")):
+            text = f"void {called}(void)\n{{\n}}\nstatic void own(void)\n{{\n}}\n"
+            (self.root / f"src/rtos/{name}.c").write_text(text, encoding="utf-8")
+        self.assertEqual(
+            completeness.defined_twice(self.root),
+            [
+                "src/rtos/one.c:1: keel_queue_add is defined in queue.c, too",
+                "src/rtos/two.c:1: one_more is defined in three.c, too",
+            ],
+        )
+
     def test_a_vanished_goal_is_a_failure(self) -> None:
         [problem] = completeness.compare_goals(["a", "b"], ["a"], "goals.txt")
         self.assertIn("b is listed, but WP has no such goal", problem)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from keel.audit.clauses import CLAUSE
 from keel.c import source as csource
-from keel.c.project import Unit, closure
+from keel.c.project import KEEL, Unit, closure
 from keel.judge import wp_frames
 from keel.judge.harness import read_harness
 
@@ -64,6 +64,22 @@ def strays(root: Path, units: Iterable[Unit]) -> list[str]:
         for path in sorted((root / "src").rglob("*.[ch]"))
         if path not in own
     ]
+
+
+def defined_twice(root: Path) -> list[str]:
+    """Functions of one name in two sources: the linker may take either, and one alone is proved."""
+    first: dict[str, Path] = {}
+    problems = []
+    for folder in dict.fromkeys((KEEL, root.resolve())):
+        for path in sorted((folder / "src").rglob("*.[ch]")):
+            for function in csource.defined(csource.read(path)):
+                if function.static:
+                    continue
+                other = first.setdefault(function.name, path)
+                if other != path:
+                    place = f"{path.relative_to(folder)}:{function.line}"
+                    problems.append(f"{place}: {function.name} is defined in {other.name}, too")
+    return problems
 
 
 def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:

@@ -15,7 +15,8 @@ Of what is built a conditional may
     refuse a number:                        #if KEEL_QUEUE_CAPACITY > 255u, with nothing but #error
 
 and what proofs/units.toml lists under `conditionals`, with a reason. Shapes of code and macros that
-only some of the tools would see through are refused here, too (shapes.py, macros.py).
+only some of the tools would see through are refused here, too (shapes.py, macros.py), and what
+comes out differently in another order of evaluation (order.py).
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence, 
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from keel.audit import macros, shapes
+from keel.audit import macros, order, shapes
 from keel.audit.places import THEOREM
 from keel.c import source as csource
 from keel.c.project import KEEL
@@ -123,7 +124,7 @@ def directives(lines: Sequence[str]) -> dict[int, int]:
 
 
 def _is_control(one: str) -> bool:
-    return unicodedata.category(one) in ("Cc", "Cf")
+    return unicodedata.category(one) in ("Cc", "Cf", "Zl", "Zp")
 
 
 def conditionals(text: str) -> list[Conditional]:
@@ -180,7 +181,7 @@ def in_what_is_built(
 ) -> Iterator[Finding]:
     """What must not be in a source or a header besides, as a compiler may see something else.
 
-    `name` is its place in the project, `pointers` are names of types that are pointers.
+    `name` is its place in the project, `pointers` are names of pointers (shapes.pointers_in).
     """
     if name == FOR_CPP:
         if " ".join(csource.without_prose(text).split()) != " ".join(FOR_CPP_TEXT.split()):
@@ -214,11 +215,10 @@ def in_harness(text: str) -> Iterator[Finding]:
 
 def problems(root: Path, allowed: Collection[str]) -> list[str]:
     """The disguises in a project; `allowed` are conditionals that a person has accepted."""
-    pointers = frozenset(
-        name
+    pointers = shapes.pointers_in(
+        csource.read(path)
         for folder in dict.fromkeys((root, KEEL))
         for path in (*folder.glob("include/**/*.h"), *root.glob("src/**/*.[ch]"))
-        for name in shapes.pointers_in(csource.read(path))
     )
 
     def built_rule(text: str, path: Path) -> Iterable[Finding]:
@@ -233,6 +233,7 @@ def problems(root: Path, allowed: Collection[str]) -> list[str]:
         *_of(root, ("include/**/*.h", "src/**/*.[ch]"), built_rule),
         *_of(root, ("specs/model/*.[ch]", "proofs/**/*.[ch]"), proof_rule),
         *macros.problems(root),
+        *order.problems(root),
     ]
     built = (*root.glob("include/**/*.h"), *root.glob("src/**/*.[ch]")) if allowed else ()
     used = {

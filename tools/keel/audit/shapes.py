@@ -3,14 +3,16 @@
 
 Directives in a function's body, which a verdict on another function would not depend on though the
 code behind them does. A function's name in parentheses, by which no audit finds the function. Casts
-to pointers, by which one object has two types: a compiler may take it for two objects. Labels that
-look like WP's own names of goals, by which a goal is judged.
+to pointers, by which one object has two types: a compiler may take it for two objects. Addresses
+taken for numbers and sizes of types, which the target's need not be: CBMC numbers objects, and its
+enumerations have four bytes. Functions that are inline and not static: a build may call another
+one's. Labels that look like WP's own names of goals, by which a goal is judged.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Set
+from collections.abc import Iterable, Iterator, Set
 
 from keel.c import source as csource
 from keel.c.syntax import Node, found, parse, written
@@ -49,7 +51,10 @@ def _in_annotation(inner: str, whole: str) -> Iterator[tuple[int, str]]:
 
 
 def in_what_is_proved(text: str, pointers: Set[str] = frozenset()) -> Iterator[tuple[int, str]]:
-    """What is wrong in a source, a header or a theorem; `pointers` are names of pointers' types."""
+    """What is wrong in a source, a header or a theorem.
+
+    `pointers` are names of types that are pointers, and of fields that are addresses.
+    """
     yield from _directives_in_bodies(text)
     tree = parse(csource.with_ghosts(text))
     for node in found(tree, "parenthesized_declarator"):
@@ -63,6 +68,62 @@ def in_what_is_proved(text: str, pointers: Set[str] = frozenset()) -> Iterator[t
         type_ = written(node.child_by_field_name("type"))
         if "*" in type_ or pointers & set(re.findall(r"\w+", type_)):
             yield _line(node), f"`({type_})`: a cast to a pointer: one object would have two types"
+        elif type_ != "void" and _is_address(node.child_by_field_name("value"), pointers):
+            yield (
+                _line(node),
+                f"`{written(node)}`: an address as a number, which the target's is not",
+            )
+    for node in found(tree, "sizeof_expression"):
+        if not _counts_elements(node):
+            yield _line(node), f"`{written(node)}`: a size, which may be another one on the target"
+    for node in found(tree, "function_definition", "declaration"):
+        words = {written(one) for one in node.children if one.type == "storage_class_specifier"}
+        if "inline" in words and "static" not in words:
+            yield _line(node), "inline and not static: a build may call another function"
+
+
+def _is_address(node: Node | None, fields: Set[str]) -> bool:
+    """Whether an expression gives the address of something; `fields` are names of such fields."""
+    if not node:
+        return False
+    inner = [one for one in node.named_children if one.type != "comment"]
+    match node.type:
+        case "parenthesized_expression":
+            return _is_address(inner[0], fields)
+        case "pointer_expression":
+            return written(node.child_by_field_name("operator")) == "&"
+        case "string_literal":
+            return True
+        case "identifier":
+            return _names_an_address(node)
+        case "field_expression":
+            return written(node.child_by_field_name("field")) in fields
+        case "conditional_expression" | "comma_expression":
+            return any(_is_address(one, fields) for one in inner[-2:])
+        case "binary_expression":  # The difference of two addresses is a number.
+            return [_is_address(one, fields) for one in inner].count(True) == 1
+    return False
+
+
+def _names_an_address(name: Node) -> bool:
+    """Whether a name is that of a pointer or an array: its function's, or else the file's."""
+    file = function = name
+    while file.parent:
+        function = file if file.type == "function_definition" else function
+        file = file.parent
+    own = found(function, "declaration", "parameter_declaration")
+    shared = [node for node in file.children if node.type == "declaration"]
+    known = {one: is_address for node in (*shared, *own) for one, is_address in _declared(node)}
+    return known.get(written(name), False)
+
+
+def _counts_elements(node: Node) -> bool:
+    """Whether a size is part of `sizeof a / sizeof a[0]`, which no size of a type changes."""
+    both = node.parent
+    if not both or both.type != "binary_expression":
+        return False
+    whole, _, one = (re.sub(r"[\s()]|sizeof", "", written(part)) for part in both.children)
+    return written(both.children[1]) == "/" and one == f"{whole}[0]"
 
 
 def _directives_in_bodies(text: str) -> Iterator[tuple[int, str]]:
@@ -77,14 +138,33 @@ def _directives_in_bodies(text: str) -> Iterator[tuple[int, str]]:
                     yield number + 1, f"#{directive[1]} in the body of {function.name}"
 
 
-def pointers_in(text: str) -> frozenset[str]:
-    """The names that a text gives to types of pointers."""
-    names = set()
-    for node in found(parse(text), "type_definition"):
-        for declarator in node.children_by_field_name("declarator"):
-            if "*" in written(declarator).partition("(")[0] or "(*" in written(declarator):
-                names |= set(re.findall(r"\w+", written(declarator).partition(")")[0]))
-    return frozenset(names)
+def pointers_in(texts: Iterable[str]) -> frozenset[str]:
+    """The names of types that are pointers, and those of fields that always are addresses."""
+    types: set[str] = set()
+    addresses: set[str] = set()
+    numbers: set[str] = set()
+    for tree in map(parse, texts):
+        for node in found(tree, "type_definition"):
+            for declarator in node.children_by_field_name("declarator"):
+                if "*" in written(declarator).partition("(")[0] or "(*" in written(declarator):
+                    types |= set(re.findall(r"\w+", written(declarator).partition(")")[0]))
+        for node in found(tree, "field_declaration"):
+            for name, is_address in _declared(node):
+                (addresses if is_address else numbers).add(name)
+    return frozenset(types | (addresses - numbers))
+
+
+def _declared(node: Node) -> Iterator[tuple[str, bool]]:
+    """The names that a declaration gives, each with whether it is a pointer's or an array's."""
+    for declarator in node.children_by_field_name("declarator"):
+        inner: Node | None = declarator
+        if inner and inner.type == "init_declarator":
+            inner = inner.child_by_field_name("declarator")
+        is_address = inner is not None and inner.type in ("pointer_declarator", "array_declarator")
+        while inner and not inner.type.endswith("identifier"):
+            inner = inner.child_by_field_name("declarator")
+        if inner:
+            yield written(inner), is_address
 
 
 def _line(node: Node) -> int:

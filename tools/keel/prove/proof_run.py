@@ -293,6 +293,7 @@ class Session:
             path for unit in everything.values() for path in (*unit.own_files, *unit.theorems)
         )
         gathered.problems += completeness.strays(root, everything.values())
+        gathered.problems += completeness.defined_twice(root)
         allowed = read_exceptions(self._exceptions, list(everything))
         accepted = {text for one in allowed.values() for text in one.conditionals}
         gathered.problems += places.problems(root, everything.values())

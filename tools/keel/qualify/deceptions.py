@@ -278,6 +278,25 @@ HIDDEN = (
         f"    /*@ // More.\n    ghost x++; */\n{RETURN}",
         "does not begin its annotation",
     ),
+    (
+        "an address that is taken for a number",
+        RETURN,
+        f"    if ((((uintptr_t)(&x)) >> 24) == 32u) {{\n        x++;\n    }}\n{RETURN}",
+        "an address as a number",
+    ),
+    (
+        "a size that the target sees otherwise",
+        RETURN,
+        f"    x += sizeof(enum {{ NONE }});\n{RETURN}",
+        "another one on the target",
+    ),
+    (
+        "a function in place of which a build may call another",
+        "static inline",
+        "inline",
+        "inline and not static",
+    ),
+    ("a line's end that only some tools see", "A comment.", "A \u2028 comment.", "U+2028"),
 )
 
 # Two states of a header of the user's, one behind the other.

@@ -232,7 +232,11 @@ float keel_voter_combine(const keel_voter_sample_t sample[], const float weight[
   @ requires vote_valid: voter_valid(voter);
   @ requires \valid_read(sample + (0 .. voter->config.sensors - 1));
   @ requires \separated(voter, sample + (0 .. voter->config.sensors - 1));
-  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1], voter->vote, voter->unanimous;
+  @ assigns voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].last,
+  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].unchanged_votes,
+  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].condemned_votes,
+  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].density,
+  @     voter->sensor[0 .. KEEL_VOTER_SENSORS - 1].latched, voter->vote, voter->unanimous;
   @ ensures VOT_005_valid: voter_valid(voter);
   @ ensures VOT_005_hull: voter->vote.state < KEEL_VOTER_DISAGREE ==>
   @     (\exists integer i; 0 <= i < voter->config.sensors &&
