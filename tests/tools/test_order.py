@@ -94,3 +94,13 @@ class Orders(unittest.TestCase):
         text = TEXT.replace("STATEMENT", "y = own(at) + *at;")
         text += "static int own(int *at)\n{\n    return *at++;\n}\n"
         self.assertEqual(len([*order.unordered(text, {"own"})]), 1)
+
+    def test_a_frame_of_one_behaviour_is_not_that_of_the_function(self) -> None:
+        text = TEXT.replace("STATEMENT", "y = half(at) + *at;")
+        contract = "/*@ behavior one: assumes *at == 0; assigns \\nothing; */\n"
+        text = text.replace(
+            "/*@ assigns *at; */", f"{contract}static int half(int *at);\n/*@ assigns *at; */"
+        )
+        self.assertEqual(len([*order.unordered(text)]), 1)
+        whole = text.replace("/*@ behavior", "/*@ assigns \\nothing; behavior")
+        self.assertEqual([*order.unordered(whole)], [])

@@ -21,6 +21,7 @@ from keel.c.syntax import Node, found, parse, written
 from keel.judge import wp_frames
 
 ASSIGNS = re.compile(r"\bassigns\b([^;]*);")
+BEHAVIOR = re.compile(r"\bbehavior\b")
 ORDERED = frozenset(("&&", "||", ","))
 KINDS = (
     "assignment_expression",
@@ -37,7 +38,8 @@ def writes_nothing(text: str) -> frozenset[str]:
     """The functions whose contract in a text says that they write nothing."""
     names = set()
     for name, contract in wp_frames.contracts(text):
-        frames = [frame.strip() for frame in ASSIGNS.findall(contract)]
+        # What stands in a behaviour holds in that one alone.
+        frames = [frame.strip() for frame in ASSIGNS.findall(BEHAVIOR.split(contract)[0])]
         if frames and all(frame == "\\nothing" for frame in frames):
             names.add(name)
     return frozenset(names)
