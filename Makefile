@@ -26,10 +26,6 @@ ifneq ($(STRANGE),)
 $(error $(shell python3 tools/keel names variable $(STRANGE) -- $(VARIABLES)))
 endif
 
-ALL_TOOLS := prove test lint coverage bench fuzz oracles firmware stack target registers model \
-             flash-openocd flash-pyocd flash-st-flash flash-px4 timing tools-tests timing-tests \
-             consumer packaging opinion evidence browser attestation contracts-run trace c-syntax dask ci \
-             fly flights replay fly-tests messages sim clients fatfs card schedule
 CFLAGS := -std=c99 -O2 -Wall -Wextra -Werror
 DEMO := $(wildcard src/rtos/*.c examples/urpilot/*.c)
 TIMING := python3 tools/keel timing
@@ -190,7 +186,7 @@ check/margins: python ## gain, phase and delay margin of each of the copter's lo
 	@python3 tools/keel margins
 
 check/tools: python ## which tools were found, with versions; fails if one is missing (ARGS=--install: first installs all)
-	@$(if $(filter --install,$(ARGS)),python3 tools/keel tools ensure $(ALL_TOOLS))
+	@$(if $(filter --install,$(ARGS)),python3 tools/keel tools ensure)
 	@python3 tools/keel tools versions $(filter-out --install,$(ARGS))
 
 generate/tables: python ## the C tables of tasks, parameters and the Earth's magnetic field

@@ -228,6 +228,15 @@ class Refusals(Sandbox):
         self.assertRegex(first, r"^toolchain: gcc, .*frama-c.*: missing; KEEL_NO_INSTALL=1 forbids")
         self.assertTrue(any("frama-c: wanted 25" in line for line in others))
 
+    def test_all_groups_are_meant_where_none_is_named(self) -> None:
+        os.environ["KEEL_NO_INSTALL"] = "1"
+        with contextlib.redirect_stderr(io.StringIO()) as errors:
+            self.assertEqual(command_line.main(["ensure"]), 2)
+        missing = errors.getvalue().partition(": missing;")[0].removeprefix("toolchain: ")
+        every = {spec.name for spec in Lock.read().of_groups(Lock.read().groups)}
+        packages = {name for name in every if name.endswith("-packages")}
+        self.assertLessEqual(packages | {"hacl", "frama-c", "qemu"}, set(missing.split(", ")))
+
     def test_a_wrong_name_is_told_in_one_line_with_the_nearest(self) -> None:
         for words, wanted in (
             (["ensure", "prov"], "there is no group prov; did you mean prove?"),

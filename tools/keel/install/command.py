@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The command line of the toolchain.
 
-    python3 tools/keel tools ensure prove test     # make the tools available
+    python3 tools/keel tools ensure prove test     # make the tools available; all without a name
     python3 tools/keel tools path cbmc             # where one of them is
     python3 tools/keel tools versions prove --json # what was found, with SHA-256
     python3 tools/keel tools env                   # variables to export in a shell
@@ -69,7 +69,7 @@ def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = Parser("Find, install and pin the tools of Keel.", prog="toolchain")
     commands = parser.add_subparsers(dest="command", required=True)
     ensure = commands.add_parser("ensure", help="make every tool of the groups available")
-    ensure.add_argument("groups", nargs="+", metavar="GROUP")
+    ensure.add_argument("groups", nargs="*", metavar="GROUP", help="default: all groups")
     path = commands.add_parser("path", help="print how to start a tool, or where it lies")
     path.add_argument("tool", metavar="TOOL")
     versions = commands.add_parser("versions", help="print what was found")

@@ -40,8 +40,11 @@ class Toolchain:
     # What a driver asks for.
 
     def ensure(self, *groups: str, say: Say = tell) -> None:
-        """Make every tool of the groups available; does next to nothing the second time."""
-        specs = self.lock.of_groups(groups)
+        """Make every tool of the groups available (of all groups if none is named).
+
+        Does next to nothing the second time.
+        """
+        specs = self.lock.of_groups(groups or self.lock.groups)
         if re.search(r"[\s:]", str(self.cache.folder)):
             # why3 does not quote a prover's path, and PATH cannot hold a colon.
             raise ToolchainError(f"no white space or colon in KEEL_CACHE: {self.cache.folder}")
