@@ -394,7 +394,7 @@ class Steps(unittest.TestCase):
         self.assertLessEqual({"test-all", "lint", "firmware", "test-target", "coverage"}, made)
 
     def test_on_one_machine_all_is_proved_and_the_evidence_made_at_last(self) -> None:
-        asked, said = self.checked(KEEL_FRESH="1")
+        asked, said = self.checked(KEEL_FRESH="1", KEEL_LONG="1")
         self.assertEqual(
             asked[:3],
             [
@@ -405,6 +405,19 @@ class Steps(unittest.TestCase):
         )
         self.assertEqual(asked[-1], "make evidence")
         self.assertIn("--- tools/keel prove --fresh: passed\n", said)
+
+    def test_what_takes_hours_is_asked_for_by_a_variable(self) -> None:
+        long = {"test-all", "coverage", "fly", "evidence"}
+        for value in ("", "0", "1"):
+            asked, _ = self.checked(KEEL_LONG=value)
+            made = {note.split()[1] for note in asked}
+            named = {word for note in asked for word in note.split() if word.startswith("NAME=")}
+            with self.subTest(value):
+                self.assertLessEqual({"firmware", "test-target", "lint", "analyze", "bench"}, made)
+                self.assertIn("python3 tools/keel prove", asked)
+                self.assertEqual(made & long, long if value == "1" else set())
+                self.assertEqual("test" in made, value != "1")
+                self.assertEqual("NAME=qualify" in named, value == "1")
 
     def test_what_is_not_proved_is_told_apart_from_what_could_not_be_tried(self) -> None:
         for status, word in ((1, "not proved"), (2, "could not be tried (exit status 2)")):
