@@ -406,7 +406,7 @@ class Steps(unittest.TestCase):
         self.assertEqual(asked[-1], "make evidence")
         self.assertIn("--- tools/keel prove --fresh: passed\n", said)
 
-    def test_what_takes_hours_is_asked_for_by_a_variable(self) -> None:
+    def test_the_long_checks_are_asked_for_by_a_variable(self) -> None:
         long = {"test-all", "coverage", "fly", "evidence"}
         for value in ("", "0", "1"):
             asked, _ = self.checked(KEEL_LONG=value)

@@ -155,8 +155,8 @@ def _value(node: Node) -> Node | None:
 
 
 def declared(node: Node | None) -> str:
-    """The name that a declarator declares; not one in the size of an array."""
-    while node and node.type != "identifier":
+    """The name that a declarator declares, a field's too; not one in the size of an array."""
+    while node and not node.type.endswith("identifier"):
         inner = node.child_by_field_name("declarator")
         in_parentheses = node.type == "parenthesized_declarator"
         node = inner or (node.named_children[0] if in_parentheses else None)

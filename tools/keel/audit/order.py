@@ -38,7 +38,7 @@ def writes_nothing(text: str) -> frozenset[str]:
     """The functions whose contract in a text says that they write nothing."""
     names = set()
     for name, contract in wp_frames.contracts(text):
-        # What stands in a behaviour holds in that one alone.
+        # The frame of a behaviour holds in that behaviour alone.
         frames = [frame.strip() for frame in ASSIGNS.findall(BEHAVIOR.split(contract)[0])]
         if frames and all(frame == "\\nothing" for frame in frames):
             names.add(name)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Set
 
+from keel.audit.harness_writes import declared
 from keel.c import source as csource
 from keel.c.syntax import Node, found, parse, written
 
@@ -69,10 +70,7 @@ def in_what_is_proved(text: str, pointers: Set[str] = frozenset()) -> Iterator[t
         if "*" in type_ or pointers & set(re.findall(r"\w+", type_)):
             yield _line(node), f"`({type_})`: a cast to a pointer: one object would have two types"
         elif type_ != "void" and _is_address(node.child_by_field_name("value"), pointers):
-            yield (
-                _line(node),
-                f"`{written(node)}`: an address as a number, which the target's is not",
-            )
+            yield _line(node), f"`{written(node)}`: an address as a number, unlike the target's"
     for node in found(tree, "sizeof_expression"):
         if not _counts_elements(node):
             yield _line(node), f"`{written(node)}`: a size, which may be another one on the target"
@@ -157,14 +155,11 @@ def pointers_in(texts: Iterable[str]) -> frozenset[str]:
 def _declared(node: Node) -> Iterator[tuple[str, bool]]:
     """The names that a declaration gives, each with whether it is a pointer's or an array's."""
     for declarator in node.children_by_field_name("declarator"):
-        inner: Node | None = declarator
-        if inner and inner.type == "init_declarator":
-            inner = inner.child_by_field_name("declarator")
+        given = declarator.child_by_field_name("value")
+        inner = declarator.child_by_field_name("declarator") if given else declarator
         is_address = inner is not None and inner.type in ("pointer_declarator", "array_declarator")
-        while inner and not inner.type.endswith("identifier"):
-            inner = inner.child_by_field_name("declarator")
-        if inner:
-            yield written(inner), is_address
+        if name := declared(declarator):
+            yield name, is_address
 
 
 def _line(node: Node) -> int:
