@@ -8,7 +8,8 @@ import unittest
 from pathlib import Path
 
 from keel.base.errors import ToolError
-from keel.c.project import ProjectError, Unit
+from keel.c.project import ProjectError, Unit, find_units
+from keel.mutate import standing
 from keel.mutate import table as mutant_table
 from keel.mutate.operators import Mutant
 from keel.mutate.verdicts import EXECUTED, Identity, Verdict
@@ -267,3 +268,12 @@ class Refused(TableTest):
             'tools = "a"', 'tools = "b"', "tools", "unit: box: tools: there is no table [tools.b]"
         )
         self.refused('tools = "a"', 'tools = "b"', "[tools.a]", "no unit names it")
+
+
+class ReasonsTest(unittest.TestCase):
+    """proofs/*/equivalent.toml, as they stand."""
+
+    def test_a_reason_is_about_a_line_that_the_unit_has(self) -> None:
+        units = find_units(ROOT).values()
+        gone = [stray for unit in units if unit.folder.is_dir() for stray in standing.strays(unit)]
+        self.assertEqual(gone, [])
