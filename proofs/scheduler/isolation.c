@@ -16,9 +16,9 @@
  *
  * The function `isolation` is the life of a scheduler: it is started, and then begin, next and
  * finish are called for as long as one likes, each where the scheduler's stage asks for it, as
- * keel_scheduler_step does. They are the kernel's own functions, of which the proof knows their
- * contracts in pass.h and scheduler.h and nothing else. The world is a clock, read at most so long
- * after it was last read:
+ * keel_scheduler_step does; between two passes any task may be removed. They are the kernel's own
+ * functions, of which the proof knows their contracts in pass.h and scheduler.h and nothing else.
+ * The world is a clock, read at most so long after it was last read:
  *
  *   - W, when a pass begins, or, behind a sleep, what keel_pass_idle_us has allowed for it and the
  *     latency that it was told;
@@ -26,15 +26,15 @@
  *   - W and its worst-case time, when another task has run, as long as nothing is promoted;
  *   - W and L, when another task has run and tasks are promoted.
  *
- * sum[j] is the sum of the first j real-time budgets, sum[n] that of all: C. other_us is what a run
- * of another task adds to the lateness of a real-time one: nothing as long as nothing is promoted,
- * as it has ended before a release comes; else W and L. Once the pass has looked at task j, no
- * release of it has passed: it was not due, or it starts and its release moves on. Between passes
- * it is late by at most what has run since: the budgets behind its own, sum[n] - sum[j + 1], and
- * other_us. Its own run counts, too (own), unless its period is so long that its next release is at
- * least as far away as its run is long. That, and what becomes of it within a pass, is the
- * invariant of the loop in `isolation` (stage_kept); a function for each stage shows that one call
- * of the kernel keeps it.
+ * sum[j] is the sum of the first j real-time budgets. C is that of all at the start, and stays when
+ * tasks leave: sum[n] is C, or less. other_us is what a run of another task adds to the lateness of
+ * a real-time one: nothing as long as nothing is promoted, as it has ended before a release comes;
+ * else W and L. Once the pass has looked at task j, no release of it has passed: it was not due, or
+ * it starts and its release moves on. Between passes it is late by at most what has run since: the
+ * budgets behind its own, C - sum[j + 1], and other_us. Its own run counts, too (own), unless its
+ * period is so long that its next release is at least as far away as its run is long. That, and
+ * what becomes of it within a pass, is the invariant of the loop in `isolation` (stage_kept); a
+ * function for each stage shows that one call of the kernel keeps it.
  */
 #include "keel/internal/rtos/lateness.h"
 #include "keel/internal/rtos/scheduler.h"
@@ -50,7 +50,8 @@
   @*/
 uint32_t read_within(uint32_t raw_us, uint64_t limit_us);
 
-/*@ // The loop: whether it asks how long it may sleep before a step, and with which numbers.
+/*@ // The loop: whether it asks how long it may sleep before a step, with which numbers, and which
+  @ // task leaves.
   @ assigns \nothing;
   @*/
 uint32_t any_number(void);
@@ -898,6 +899,210 @@ static uint64_t move_on(keel_scheduler_t *s, const account_t *a, bool promoting,
     return serve(s, a, promoting, longest_us);
 }
 
+/* The task at a position leaves. */
+/*@ requires memory: \valid(s) && scheduler_valid(s);
+  @ requires at: is_at(s, k, task) && task != \null;
+  @ assigns s->queue.count, s->queue.realtime_count, s->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     s->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns s->cursor, s->pass_end, s->running, s->wake_us, s->earliest_realtime_us,
+  @     s->earliest_other_us;
+  @ SCHEDULER_STAYS_VALID(s)
+  @ ensures wake: wake_right(s);
+  @ ensures guard: s->config.guard_us == \old(s->config.guard_us);
+  @ ensures counts: s->queue.count == \old(s->queue.count) - 1;
+  @ ensures realtime: s->queue.realtime_count == \old(s->queue.realtime_count)
+  @     - ((k < \old(s->queue.realtime_count)) ? 1 : 0);
+  @ ensures order: \forall integer j; 0 <= j < s->queue.count ==>
+  @     s->queue.order[j] == \at(s->queue.order[(j < k) ? j : j + 1], Pre);
+  @ ensures releases: \forall integer j; 0 <= j < s->queue.count ==>
+  @     s->queue.release_us[s->queue.order[j]] ==
+  @         \at(s->queue.release_us[s->queue.order[(j < k) ? j : j + 1]], Pre);
+  @ ensures periods: \forall integer j; 0 <= j < s->queue.count ==>
+  @     s->queue.period_us[s->queue.order[j]] ==
+  @         \at(s->queue.period_us[s->queue.order[(j < k) ? j : j + 1]], Pre);
+  @ ensures budgets: \forall integer j; 0 <= j < s->queue.count ==>
+  @     s->queue.budget_us[s->queue.order[j]] ==
+  @         \at(s->queue.budget_us[s->queue.order[(j < k) ? j : j + 1]], Pre);
+  @*/
+static void remove_at(keel_scheduler_t *s, const keel_task_config_t *task, uint32_t k)
+{
+    keel_status_t status;
+
+    (void)k;
+    //@ assert held: queue_holds(&s->queue, task);
+    status = keel_scheduler_remove(s, task);
+    (void)status;
+    //@ assert left: order_left{Pre, Here}(&s->queue, k);
+    /*@ assert before: \forall integer j; 0 <= j < k ==>
+      @     s->queue.order[j] == \at(s->queue.order[j], Pre);
+      @*/
+    /*@ assert behind: \forall integer j; k <= j < s->queue.count ==>
+      @     s->queue.order[j] == \at(s->queue.order[j + 1], Pre);
+      @*/
+    /*@ assert slots: \forall integer j; 0 <= j < s->queue.count ==>
+      @     0 <= s->queue.order[j] < KEEL_QUEUE_CAPACITY;
+      @*/
+}
+
+/* The n budgets without the one at position k, if there is one: the sums of those that are left. */
+/*@ requires room: \valid(a);
+  @ requires many: n <= KEEL_QUEUE_CAPACITY;
+  @ requires rise: a->sum[0] == 0 && sums_rise(a, n);
+  @ requires range: a->sum[n] <= KEEL_QUEUE_CAPACITY * UINT32_MAX;
+  @ assigns a->sum[0 .. KEEL_QUEUE_CAPACITY];
+  @ ensures budgets: \forall integer j; 0 <= j < ((k < n) ? n - 1 : n) ==>
+  @     a->sum[j + 1] - a->sum[j] ==
+  @         \at(a->sum[((j < k) ? j : j + 1) + 1] - a->sum[(j < k) ? j : j + 1], Pre);
+  @ ensures lower: \forall integer j; 0 <= j < ((k < n) ? n - 1 : n) ==>
+  @     a->sum[j + 1] <= \at(a->sum[((j < k) ? j : j + 1) + 1], Pre);
+  @ ensures rise: a->sum[0] == 0 && sums_rise(a, (k < n) ? n - 1 : n);
+  @ ensures all: a->sum[(k < n) ? n - 1 : n] <= \at(a->sum[n], Pre);
+  @*/
+static void sum_without(account_t *a, uint32_t k, uint32_t n)
+{
+    int64_t budget_us;
+
+    if (k >= n) {
+        return;
+    }
+    budget_us = a->sum[k + 1u] - a->sum[k];
+    /*@ loop invariant range: k + 1 <= i <= n;
+      @ loop invariant lower: \forall integer j; k + 1 <= j < i ==>
+      @     a->sum[j] == \at(a->sum[j + 1], Pre) - budget_us;
+      @ loop invariant before: \forall integer j; 0 <= j <= k ==>
+      @     a->sum[j] == \at(a->sum[j], Pre);
+      @ loop invariant same: \forall integer j; i <= j <= n ==>
+      @     a->sum[j] == \at(a->sum[j], Pre);
+      @ loop assigns i, a->sum[k + 1 .. n - 1];
+      @ loop variant n - i;
+      @*/
+    for (uint32_t i = k + 1u; i < n; i++) {
+        //@ assert next: 0 <= a->sum[i + 1] <= KEEL_QUEUE_CAPACITY * UINT32_MAX;
+        a->sum[i] = a->sum[i + 1u] - budget_us;
+    }
+    /*@ assert shifted: \forall integer j; k <= j < n ==>
+      @     a->sum[j] == \at(a->sum[j + 1], Pre) - budget_us;
+      @*/
+}
+
+/* A task leaves: no other is later for it. */
+/*@ SET_GIVEN(s, a)
+  @ requires ready: s->stage == KEEL_STAGE_READY && late_between(s, a);
+  @ requires range: a->all_us <= KEEL_QUEUE_CAPACITY * UINT32_MAX;
+  @ requires other: a->other_us <= 2 * UINT32_MAX;
+  @ requires room: \valid(a);
+  @ requires at: is_at(s, k, task) && task != \null;
+  @ assigns s->queue.count, s->queue.realtime_count, s->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     s->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns s->cursor, s->pass_end, s->running, s->wake_us, s->earliest_realtime_us,
+  @     s->earliest_other_us, a->sum[0 .. KEEL_QUEUE_CAPACITY];
+  @ SCHEDULER_STAYS_VALID(s)
+  @ ensures wake: wake_right(s);
+  @ ensures guard: s->config.guard_us == \old(s->config.guard_us);
+  @ ensures summed: budgets_summed(s, a);
+  @ ensures rise: a->sum[0] == 0 && sums_rise(a, s->queue.realtime_count);
+  @ ensures own: own_counted(s, a);
+  @ ensures least: own_least(s, a);
+  @ ensures all: all_counted(s, a);
+  @ ensures bounded: bounded(s, a);
+  @ ensures steady: steadied(s, a);
+  @ ensures none: \old(none_counted(s, a)) ==> none_counted(s, a);
+  @ ensures never: still_never{Pre, Post}(s);
+  @ ensures late: late_between(s, a);
+  @*/
+static void leave(keel_scheduler_t *s, account_t *a, const keel_task_config_t *task, uint32_t k)
+{
+    const uint32_t n = s->queue.realtime_count;
+    const int64_t turn_us = a->all_us + (int64_t)s->config.guard_us + a->other_us;
+
+    (void)turn_us;
+    /*@ assert given: \forall integer j; 0 <= j < n ==> a->own[s->queue.order[j]] ==
+      @     ((turn_us <= s->queue.period_us[s->queue.order[j]])
+      @          ? 0 : s->queue.budget_us[s->queue.order[j]]);
+      @*/
+    //@ assert last: 0 <= a->sum[n] <= KEEL_QUEUE_CAPACITY * UINT32_MAX;
+    sum_without(a, k, n);
+    /*@ assert kept: \forall integer x; 0 <= x < KEEL_QUEUE_CAPACITY ==>
+      @     a->own[x] == \at(a->own[x], Pre) && a->bound_us[x] == \at(a->bound_us[x], Pre) &&
+      @     a->steady[x] == \at(a->steady[x], Pre);
+      @*/
+    /*@ assert summed: \forall integer j; 0 <= j < ((k < n) ? n - 1 : n) ==>
+      @     a->sum[j + 1] - a->sum[j] ==
+      @         s->queue.budget_us[s->queue.order[(j < k) ? j : j + 1]];
+      @*/
+    /*@ assert late: \forall integer j; 0 <= j < ((k < n) ? n - 1 : n) ==>
+      @     s->clock.now_us - s->queue.release_us[s->queue.order[(j < k) ? j : j + 1]] <=
+      @         a->all_us + a->other_us - a->sum[j + 1]
+      @         + a->own[s->queue.order[(j < k) ? j : j + 1]];
+      @*/
+    remove_at(s, task, k);
+    //@ assert counts: s->queue.realtime_count == ((k < n) ? n - 1 : n);
+    //@ assert time: s->clock.now_us == \at(s->clock.now_us, Pre);
+    /*@ assert own_moved: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     a->own[s->queue.order[j]] == a->own[\at(s->queue.order[(j < k) ? j : j + 1], Pre)];
+      @*/
+    /*@ assert moved: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     s->queue.release_us[s->queue.order[j]] ==
+      @         \at(s->queue.release_us[s->queue.order[(j < k) ? j : j + 1]], Pre);
+      @*/
+    /*@ assert bounds: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     \at(s->clock.now_us - s->queue.release_us[s->queue.order[(j < k) ? j : j + 1]], Pre) <=
+      @         a->all_us + a->other_us - a->sum[j + 1]
+      @         + a->own[\at(s->queue.order[(j < k) ? j : j + 1], Pre)];
+      @*/
+    /*@ assert so_late: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     s->clock.now_us
+      @         - \at(s->queue.release_us[s->queue.order[(j < k) ? j : j + 1]], Pre) <=
+      @     a->all_us + a->other_us - a->sum[j + 1] + a->own[s->queue.order[j]];
+      @*/
+    /*@ assert on_time: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     s->clock.now_us - s->queue.release_us[s->queue.order[j]] <=
+      @         a->all_us + a->other_us - a->sum[j + 1] + a->own[s->queue.order[j]];
+      @*/
+    //@ assert turn: turn(s, a) == turn_us == \at(turn(s, a), Pre);
+    /*@ assert there: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     0 <= ((j < k) ? j : j + 1) < n;
+      @*/
+    /*@ assert taken: \forall integer j; 0 <= j < s->queue.realtime_count ==>
+      @     a->own[s->queue.order[j]] == ((turn_us <= s->queue.period_us[s->queue.order[j]])
+      @                                       ? 0 : s->queue.budget_us[s->queue.order[j]]);
+      @*/
+}
+
+/* Between passes the task at any position leaves, or none. */
+/*@ SET_GIVEN(s, a)
+  @ requires kept: stage_kept(s, a, run_us);
+  @ requires range: a->all_us <= KEEL_QUEUE_CAPACITY * UINT32_MAX;
+  @ requires other: a->other_us <= 2 * UINT32_MAX;
+  @ requires room: \valid(a);
+  @ assigns s->queue.count, s->queue.realtime_count, s->queue.order[0 .. KEEL_QUEUE_CAPACITY - 1],
+  @     s->queue.task[0 .. KEEL_QUEUE_CAPACITY - 1];
+  @ assigns s->cursor, s->pass_end, s->running, s->wake_us, s->earliest_realtime_us,
+  @     s->earliest_other_us, a->sum[0 .. KEEL_QUEUE_CAPACITY];
+  @ SCHEDULER_STAYS_VALID(s)
+  @ ensures wake: wake_right(s);
+  @ ensures guard: s->config.guard_us == \old(s->config.guard_us);
+  @ ensures summed: budgets_summed(s, a);
+  @ ensures rise: a->sum[0] == 0 && sums_rise(a, s->queue.realtime_count);
+  @ ensures own: own_counted(s, a);
+  @ ensures least: own_least(s, a);
+  @ ensures all: all_counted(s, a);
+  @ ensures bounded: bounded(s, a);
+  @ ensures steady: steadied(s, a);
+  @ ensures none: \old(none_counted(s, a)) ==> none_counted(s, a);
+  @ ensures never: still_never{Pre, Post}(s);
+  @ ensures kept: stage_kept(s, a, run_us);
+  @*/
+static void let_go(keel_scheduler_t *s, account_t *a, uint64_t run_us)
+{
+    const uint32_t k = any_number();
+
+    (void)run_us;
+    if ((s->stage == KEEL_STAGE_READY) && (k < s->queue.count)) {
+        leave(s, a, s->queue.task[s->queue.order[k]], k);
+    }
+}
+
 /*@ // As keel_scheduler_init and keel_scheduler_add leave it.
   @ requires memory: \valid(s) && scheduler_valid(s) && setup_unmoved(s);
   @ requires clock: clock_modelled(s);
@@ -931,10 +1136,10 @@ void isolation(keel_scheduler_t *s, bool promoting, uint32_t longest_us, uint64_
       @ loop invariant bounded: bounded(s, &a);
       @ loop invariant steady: steadied(s, &a);
       @ loop invariant never: promotes == 0 ==> never_promotes(s);
-      @ loop invariant sum: a.all_us == a.sum[s->queue.realtime_count];
+      @ loop invariant range: a.all_us <= KEEL_QUEUE_CAPACITY * UINT32_MAX;
       @ loop invariant more: a.other_us == (promoting ? s->config.guard_us + longest_us : 0);
       @ loop invariant kept: stage_kept(s, &a, run_us);
-      @ loop assigns move, run_us, *s;
+      @ loop assigns move, run_us, *s, a.sum[0 .. KEEL_QUEUE_CAPACITY];
       @ loop variant moves - move;
       @*/
     for (uint64_t move = 0u; move < moves; move++) {
@@ -943,6 +1148,8 @@ void isolation(keel_scheduler_t *s, bool promoting, uint32_t longest_us, uint64_
         if (s->clock.now_us > (KEEL_CLOCK_TIME_LIMIT_US - KEEL_CLOCK_STEP_LIMIT_US)) {
             return;
         }
+        let_go(s, &a, run_us);
+        //@ assert time: in_uptime(s);
         ends = !promoting && (s->stage == KEEL_STAGE_PASS) && is_promotion_due(s);
         //@ assert ISO_003_never: promotes == 0 ==> !ends;
         run_us = move_on(s, &a, promoting, longest_us, run_us);

@@ -528,7 +528,7 @@ FIGURES: tuple[Figure, ...] = (
 )
 
 if (ROOT / DETERMINED).is_file():
-    KINDS = r"^\| (\d+) \| (?:in )?every valid state \|\n\| (\d+) \| .*?\n\| (\d+) \| "
+    KINDS = r"^\| (\d+) \| (?:in )?every valid state[^|]*\|\n\| (\d+) \| .*?\n\| (\d+) \| "
     FIGURES += tuple(
         Figure(name, KINDS, kinds_of_functions) for name in ("README.md", "docs/proved.md")
     )

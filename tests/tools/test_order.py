@@ -52,6 +52,7 @@ WRONG = (
     "int two[2] = { take(at), *at };",
     "struct box other = { .a = take(at), .b = box->b };",
     "if ((take(at) > 0) == (*at > 0)) { y = 0; }",
+    "struct two pair = { one_box, take(one_box.cells) };",
 )
 RIGHT = (
     "y = take(&x); y += x;",
@@ -89,6 +90,10 @@ class Orders(unittest.TestCase):
         text = TEXT.replace("STATEMENT", "y = seen(at) + *at;")
         self.assertEqual(len([*order.unordered(text)]), 1)
         self.assertEqual([*order.unordered(text, {"seen"})], [])
+
+    def test_a_pointer_of_that_name_leads_to_another_function(self) -> None:
+        text = TEXT.replace("STATEMENT", "int (*seen)(void) = &other; y = seen() + shared;")
+        self.assertEqual(len([*order.unordered(text, {"seen"})]), 1)
 
     def test_the_own_function_counts_where_a_header_has_one_of_that_name(self) -> None:
         text = TEXT.replace("STATEMENT", "y = own(at) + *at;")

@@ -930,6 +930,49 @@ class Rules(TreeTest):
             ],
         )
 
+    def test_a_function_that_files_share_is_declared_in_a_header(self) -> None:
+        self.assertEqual(completeness.undeclared(self.root), [])
+        text = "void keel_more(void)\n{\n}\nint abs(int x)\n{\n    return x;\n}\n"
+        (self.root / "src/rtos/more.c").write_text(text, encoding="utf-8")
+        header = self.root / "include/keel/rtos/more.h"
+        header.write_text("int abs(int x);\n", encoding="utf-8")
+        self.assertEqual(
+            completeness.undeclared(self.root),
+            [
+                "src/rtos/more.c:1: keel_more is not static, and no header declares it",
+                "src/rtos/more.c:4: abs is the C library's: a compiler knows what that one does",
+            ],
+        )
+
+    def test_a_function_has_one_contract(self) -> None:
+        self.assertEqual(completeness.contracts_elsewhere(self.root), [])
+        contract = "/*@ assigns \\nothing; */\nvoid keel_queue_init(keel_queue_t *queue);\n"
+        theorem = f"// wp: theorem\n{contract}"
+        folder = self.root / "proofs/queue"
+        folder.mkdir(parents=True)
+        (folder / "more.c").write_text(theorem, encoding="utf-8")
+        [problem] = completeness.contracts_elsewhere(self.root)
+        self.assertIn("more.c: a second contract of keel_queue_init, which", problem)
+
+    def test_headers_that_include_each_other(self) -> None:
+        self.assertEqual(completeness.include_circles(self.root), [])
+        for name, other in (("one", "keel/rtos/two.h"), ("two", "one.h"), ("three", "one.h")):
+            path = self.root / f"include/keel/rtos/{name}.h"
+            path.write_text(f'#include "{other}"\n', encoding="utf-8")
+        self.assertEqual(
+            completeness.include_circles(self.root),
+            [
+                "include/keel/rtos/one.h: it includes itself, by way of other headers",
+                "include/keel/rtos/two.h: it includes itself, by way of other headers",
+            ],
+        )
+
+    def test_two_functions_that_point_at_each_other(self) -> None:
+        path = self.root / "src/rtos/turn.c"
+        turn = "int {0}(int n)\n{{\n    int (*f)(int) = &{1};\n    return f(n);\n}}\n"
+        path.write_text(turn.format("one", "two") + turn.format("two", "one"), encoding="utf-8")
+        self.assertEqual(len(completeness.endless([path])), 2)
+
     def test_a_vanished_goal_is_a_failure(self) -> None:
         [problem] = completeness.compare_goals(["a", "b"], ["a"], "goals.txt")
         self.assertIn("b is listed, but WP has no such goal", problem)

@@ -9,9 +9,9 @@
  *     keel_scheduler_add(&s, &gyro);                    for every task
  *     keel_scheduler_lateness(&s, &gyro, &lateness);    before the start, or at any time
  *
- * The numbers are those of the theorems, with the budgets as they were declared: they hold while
- * each budget is kept, the clock is read within the guard, and no task is added or removed
- * (specs/soundness.md, Isolation).
+ * The numbers are those of the theorems, with the budgets as they were declared. Asked for before
+ * the start, they hold while each budget is kept, the clock is read within the guard, no task is
+ * added, and none is removed but between two steps (specs/soundness.md, Isolation).
  */
 #ifndef KEEL_RTOS_LATENESS_H
 #define KEEL_RTOS_LATENESS_H

@@ -55,7 +55,8 @@ uint32_t keel_spread_divisor(uint32_t a, uint32_t b);
  *
  * @param scheduler a scheduler that was not started yet
  * @param crowded   receives how many tasks keep the phase that they declare; 0: no two ever meet,
- *                  as long as budgets are kept and decisions take no longer than the guard
+ *                  as long as budgets and guard are kept, the loop steps in time, and no task is
+ *                  added
  * @return KEEL_OK; KEEL_ERR_NULL; KEEL_ERR_STATE after the start
  */
 keel_status_t keel_scheduler_spread(keel_scheduler_t *scheduler, uint32_t *crowded);

@@ -3,16 +3,35 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from keel.audit.clauses import CLAUSE
+from keel.audit.places import THEOREM
 from keel.c import source as csource
 from keel.c.project import KEEL, Unit, closure
 from keel.judge import wp_frames
 from keel.judge.harness import read_harness
+
+CONTRACTS = ("include/**/*.h", "src/**/*.[ch]", "proofs/**/*.c")
+CLAUSE_OF = re.compile(r"\b(?:requires|ensures|assigns|behavior)\b")
+POINTED_AT = re.compile(r"&\s*(\w+)")
+# Functions of C99's library (ISO C99, 7.4 and 7.12 to 7.24) and of POSIX that compilers replace.
+LIBRARY = re.compile(
+    r"(?:a?cos|a?sin|a?tan|(?:a?cos|a?sin|a?tan)h|atan2|cbrt|ceil|copysign|erfc?|exp[2m1]*|fabs"
+    r"|fdim|floor|fma|fmax|fmin|fmod|frexp|hypot|ilogb|ldexp|[lt]gamma|log(?:10|1p|2|b)?|modf|nan"
+    r"|nearbyint|nextafter|nexttoward|pow|remainder|remquo|l{0,2}rint|l{0,2}round|scalbl?n|sqrt"
+    r"|trunc|sincos|significand|drem|gamma|j[01n]|y[01n])[fl]?"
+    r"|l{0,2}abs|imaxabs|l{0,2}div|abort|_?exit|_Exit|atexit|alloca|[cm]alloc|realloc|free|qsort"
+    r"|bsearch|ffsl{0,2}|b(?:cmp|copy|zero)|r?index|mem(?:chr|cmp|p?cpy|move|set)"
+    r"|st[pr]n?cpy|str(?:n?cat|r?chr|n?cmp|n?casecmp|c?spn|n?dup|len|pbrk|str|tok|tol+|toul+)"
+    r"|strto[dfl]|is(?:alnum|alpha|ascii|blank|cntrl|digit|graph|lower|print|punct|space|upper)"
+    r"|isxdigit|to(?:ascii|lower|upper)|v?[fs]?n?(?:printf|scanf)|f?put[cs]|putchar|fwrite"
+)
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.MULTILINE)
 
 
 def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:
@@ -39,7 +58,8 @@ def endless(files: Iterable[Path]) -> list[str]:
         text = csource.with_ghosts(csource.read(path))
         bodies |= {one.name: csource.body_of(text, one.name) for one in csource.defined(text)}
     called = {
-        name: {call.name for call in csource.calls(body, r"\w+")} & bodies.keys()
+        name: {*(call.name for call in csource.calls(body, r"\w+")), *POINTED_AT.findall(body)}
+        & bodies.keys()
         for name, body in bodies.items()
     }
     problems = []
@@ -80,6 +100,88 @@ def defined_twice(root: Path) -> list[str]:
                     place = f"{path.relative_to(folder)}:{function.line}"
                     problems.append(f"{place}: {function.name} is defined in {other.name}, too")
     return problems
+
+
+def undeclared(root: Path) -> list[str]:
+    """Functions that other files may call and no header declares: nothing compares them."""
+    folders = [folder / "include" for folder in dict.fromkeys((root.resolve(), KEEL))]
+    declared = {
+        function.name
+        for folder in folders
+        for path in folder.rglob("*.h")
+        for function in csource.functions(csource.read(path))
+    }
+    problems = []
+    for path in sorted((root / "src").rglob("*.c")):
+        for one in csource.defined(csource.read(path)):
+            place = f"{path.relative_to(root)}:{one.line}: {one.name}"
+            if not one.static and LIBRARY.fullmatch(one.name):
+                problems.append(f"{place} is the C library's: a compiler knows what that one does")
+            elif not one.static and one.name not in declared:
+                problems.append(f"{place} is not static, and no header declares it")
+    return problems
+
+
+def contracts_elsewhere(root: Path) -> list[str]:
+    """Second contracts of public functions: callers that read those would rest on them."""
+    folders = dict.fromkeys((KEEL, root.resolve()))
+    public = {
+        function.name
+        for folder in folders
+        for path in sorted((folder / "src").rglob("*.c"))
+        for function in csource.defined(csource.read(path))
+        if not function.static
+    }
+    first: dict[str, Path] = {}
+    problems = []
+    for folder in folders:
+        for path in (path for tree in CONTRACTS for path in sorted(folder.glob(tree))):
+            text = csource.read(path)
+            if "proofs" in path.parts and THEOREM not in text[:500]:
+                continue
+            names = {name for name, said in wp_frames.contracts(text) if CLAUSE_OF.search(said)}
+            for name in sorted(names & public):
+                if first.setdefault(name, path) != path:
+                    told = first[name].relative_to(folder) if folder in first[name].parents else ""
+                    problems.append(
+                        f"{path.relative_to(folder)}: a second contract of {name}, which"
+                        f" {told or first[name].name} states"
+                    )
+    return problems
+
+
+def include_circles(root: Path) -> list[str]:
+    """Headers that include each other: each one's lemmas could be proved from the other's."""
+    folders = [folder / "include" for folder in dict.fromkeys((root.resolve(), KEEL))]
+    headers = {
+        path.relative_to(folder).as_posix(): csource.read(path)
+        for folder in reversed(folders)
+        for path in sorted(folder.rglob("*.h"))
+    }
+    seen_from = {name: _included(name, headers) for name in headers}
+    return [
+        f"include/{name}: it includes itself, by way of other headers"
+        for name, seen in seen_from.items()
+        if name in seen
+    ]
+
+
+def _included(name: str, headers: Mapping[str, str]) -> set[str]:
+    """All headers that one includes, by way of others, too."""
+    seen: set[str] = set()
+    waiting = [name]
+    while waiting:
+        name = waiting.pop()
+        text = headers[name]
+        named = {
+            path
+            for one in INCLUDE.findall(text)
+            for path in (one, posixpath.normpath(posixpath.join(posixpath.dirname(name), one)))
+            if path in headers
+        }
+        waiting += named - seen
+        seen |= named
+    return seen
 
 
 def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:

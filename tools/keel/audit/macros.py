@@ -4,7 +4,8 @@
 A macro has a name in capitals, so it is no function, field, type or predicate, nor a word of C or
 of annotations; it is no enumerator either, and a header's macro is defined in one place only. In
 its text are no words that control what is run or that state what is taken for true, no functions of
-the project, whose calls audits follow, and no call of what is given to it.
+the project, whose calls audits follow, and no call of what is given to it. It hides no change of an
+object unless it looks like a call, and no cast to a pointer, `sizeof` or union.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ STATES = frozenset("lemma axiom axiomatic inductive ghost admit check logic pred
 CONTROLS = frozenset(
     "while for do goto return if else switch case default break continue terminates".split()
 )
+CHANGES = re.compile(r"\+\+|--|(?<![=!<>])=(?!=)|<<=|>>=")
+HIDES = re.compile(r"\*\s*\)|\b(?:sizeof|union)\b")
 LOGIC_NAME = re.compile(
     r"\b(?:ensures|requires|assert|invariant|assumes)\s+(\w+)\s*:"
     r"|\b(?:lemma|behavior|predicate|logic\s+\w+)\s+(\w+)"
@@ -91,6 +94,10 @@ def in_what_is_built(text: str) -> Iterator[tuple[int, str]]:
     for one in defined(text):
         for word in sorted(one.words & CONTROLS):
             yield one.line, f"the macro {one.name} stands for `{word}`, which audits look for"
+        if one.parameters is None and CHANGES.search(one.text):
+            yield one.line, f"the macro {one.name} changes an object, which its look does not say"
+        if match := HIDES.search(one.text):
+            yield one.line, f"the macro {one.name} hides `{match.group()}` from audits of code"
         for given in one.parameters or ():
             if re.search(rf"\b{given}[\s)]*\(", one.text):
                 yield one.line, f"the macro {one.name} calls {given}, whatever that is"

@@ -76,7 +76,9 @@ class _Reader:
 
     def __init__(self, file: Node, harmless: Set[str]) -> None:
         self.file = file
-        self._harmless = harmless
+        # What a variable leads to is called by its name, too.
+        variables_too = found(file, "declaration", "parameter_declaration")
+        self._harmless = harmless - {name for one in variables_too for name in _pointed(one)}
         declared = [one for one in file.children if one.type == "declaration"]
         variables = [
             name
@@ -94,7 +96,7 @@ class _Reader:
         for index, one in enumerate(operands):
             others = operands[:index] + operands[index + 1 :]
             if self._writes(one):
-                seen = self._reachable | _targets(one)
+                seen = self._reachable | _targets(one) | self._given(one)
                 if any(self._writes(two) or _reads(two, seen) for two in others):
                     return True
         return False
@@ -118,6 +120,21 @@ class _Reader:
         return bool(found(node, *WRITES)) or any(
             written(one) not in self._harmless for one in called
         )
+
+    def _given(self, node: Node) -> set[str]:
+        """The structures of which calls that may write are given a part: an array's address."""
+        calls = [one for one in found(node, "call_expression") if self._writes(one)]
+        parts = [part for one in calls for part in found(one, "field_expression")]
+        return {written(_variable(one)) for one in parts} - {""}
+
+
+def _pointed(declaration: Node) -> set[str]:
+    """The pointers to functions that a declaration gives."""
+    return {
+        written(name)
+        for one in found(declaration, "parenthesized_declarator")
+        for name in found(one, "identifier")
+    }
 
 
 def _targets(node: Node) -> set[str]:

@@ -6,7 +6,10 @@ code behind them does. A function's name in parentheses, by which no audit finds
 to pointers, by which one object has two types: a compiler may take it for two objects. Addresses
 taken for numbers and sizes of types, which the target's need not be: CBMC numbers objects, and its
 enumerations have four bytes. Functions that are inline and not static: a build may call another
-one's. Labels that look like WP's own names of goals, by which a goal is judged.
+one's. Unions, whose members are apart for WP. Types of functions, by which a function is declared
+where no audit finds it. Variables that are initialised with themselves. Variables that files share,
+and constants of headers without a value. Labels that look like WP's own names of goals, by which a
+goal is judged.
 """
 
 from __future__ import annotations
@@ -78,6 +81,46 @@ def in_what_is_proved(text: str, pointers: Set[str] = frozenset()) -> Iterator[t
         words = {written(one) for one in node.children if one.type == "storage_class_specifier"}
         if "inline" in words and "static" not in words:
             yield _line(node), "inline and not static: a build may call another function"
+    for node in found(tree, "union_specifier"):
+        yield _line(node), "a union: provers take its members for objects of their own"
+    for node in found(tree, "type_definition"):
+        if any(_is_function(one) for one in node.children_by_field_name("declarator")):
+            yield _line(node), "a type of functions, by which no audit finds what is declared"
+    for node in found(tree, "init_declarator"):
+        value, name = node.child_by_field_name("value"), declared(node)
+        if value and name in {written(one) for one in (value, *found(value, "identifier"))}:
+            yield _line(node), f"`{written(node)}`: {name} is read before it has a value"
+
+
+def in_file(text: str, *, is_header: bool) -> Iterator[tuple[int, str]]:
+    """Objects of what is built that another file may see or change; ghosts are none."""
+    for node in found(parse(text), "declaration"):
+        names = [one for one in node.children_by_field_name("declarator") if not _is_function(one)]
+        words = {written(one) for one in node.children if one.type == "storage_class_specifier"}
+        is_constant = "const" in {written(one) for one in node.children}
+        if names and "extern" in words and not is_constant:
+            yield _line(node), f"`{written(node)}`: a variable that files share"
+        elif names and is_header and "extern" not in words and not _is_local(node):
+            if any(one.type != "init_declarator" for one in names) or not is_constant:
+                yield _line(node), f"`{written(node)}`: in a header, and no constant with a value"
+
+
+def _is_local(node: Node) -> bool:
+    inside = node.parent
+    while inside and inside.type != "function_definition":
+        inside = inside.parent
+    return inside is not None
+
+
+def _is_function(declarator: Node) -> bool:
+    """Whether a function is declared, and no pointer to one."""
+    inner: Node | None = declarator
+    while inner and inner.type == "pointer_declarator":
+        inner = inner.child_by_field_name("declarator")
+    if not inner or inner.type != "function_declarator":
+        return False
+    named = inner.child_by_field_name("declarator")
+    return named is not None and named.type != "parenthesized_declarator"
 
 
 def _is_address(node: Node | None, fields: Set[str]) -> bool:

@@ -294,6 +294,9 @@ class Session:
         )
         gathered.problems += completeness.strays(root, everything.values())
         gathered.problems += completeness.defined_twice(root)
+        gathered.problems += completeness.undeclared(root)
+        gathered.problems += completeness.contracts_elsewhere(root)
+        gathered.problems += completeness.include_circles(root)
         allowed = read_exceptions(self._exceptions, list(everything))
         accepted = {text for one in allowed.values() for text in one.conditionals}
         gathered.problems += places.problems(root, everything.values())

@@ -296,6 +296,54 @@ HIDDEN = (
         "inline",
         "inline and not static",
     ),
+    (
+        "code that an apostrophe hides from audits",
+        '#error "KEEL_BOX_SIZE: at most 8"',
+        "#error don't choose more /* than 8",
+        "a quote without its end",
+    ),
+    (
+        "two members in one place",
+        RETURN,
+        f"    union {{\n        uint32_t a;\n        uint32_t b;\n    }} u;\n{RETURN}",
+        "a union",
+    ),
+    (
+        "a constant that another file may give a value",
+        "static inline",
+        "static const uint32_t keel_first;\nstatic inline",
+        "in a header, and no constant with a value",
+    ),
+    (
+        "a variable that files share",
+        "static inline",
+        "extern uint32_t keel_ticks;\nstatic inline",
+        "a variable that files share",
+    ),
+    (
+        "a function that a type declares",
+        "static inline",
+        "typedef uint32_t sum_t(uint32_t x);\nextern sum_t keel_sum;\nstatic inline",
+        "a type of functions",
+    ),
+    (
+        "a variable that is its own first value",
+        RETURN,
+        f"    uint32_t y = y;\n    x += y;\n{RETURN}",
+        "y is read before it has a value",
+    ),
+    (
+        "a macro that changes an object",
+        "static inline",
+        "#define BOX_NEXT (box->count++)\nstatic inline",
+        "BOX_NEXT changes an object",
+    ),
+    (
+        "a cast behind a macro",
+        "static inline",
+        "#define BOX_AT(p) ((unsigned int *)(p))\nstatic inline",
+        "hides `*)`",
+    ),
     ("a line's end that only some tools see", "A comment.", "A \u2028 comment.", "U+2028"),
 )
 
