@@ -60,7 +60,7 @@ uint32_t any_number(void);
 typedef struct {
     int64_t sum[KEEL_QUEUE_CAPACITY + 1u]; /**< The sums of the first real-time budgets. */
     int64_t own[KEEL_QUEUE_CAPACITY];      /**< By slot: what its own run may add to it. */
-    int64_t all_us;                        /**< The sum of all real-time budgets. */
+    int64_t all_us;                        /**< The sum of all of them at the start. */
     int64_t other_us; /**< What another task's run may add to the lateness of any. */
     int64_t bound_us[KEEL_QUEUE_CAPACITY]; /**< By slot: how late it starts at the latest. */
     int64_t steady[KEEL_QUEUE_CAPACITY];   /**< By slot: 1 if none of its periods is skipped. */

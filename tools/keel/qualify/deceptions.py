@@ -339,6 +339,12 @@ HIDDEN = (
         "BOX_NEXT changes an object",
     ),
     (
+        "code in the name of a linker's place",
+        "static inline",
+        "#define KEEL_REALTIME_ZERO + 1u\nstatic inline",
+        "KEEL_REALTIME_ZERO is a linker's place",
+    ),
+    (
         "a cast behind a macro",
         "static inline",
         "#define BOX_AT(p) ((unsigned int *)(p))\nstatic inline",
