@@ -952,7 +952,7 @@ class Rules(TreeTest):
         folder.mkdir(parents=True)
         (folder / "more.c").write_text(theorem, encoding="utf-8")
         [problem] = completeness.contracts_elsewhere(self.root)
-        self.assertIn("more.c: a second contract of keel_queue_init, which", problem)
+        self.assertIn("more.c: a second contract of keel_queue_init, see", problem)
 
     def test_headers_that_include_each_other(self) -> None:
         self.assertEqual(completeness.include_circles(self.root), [])

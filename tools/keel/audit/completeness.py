@@ -137,16 +137,13 @@ def contracts_elsewhere(root: Path) -> list[str]:
     for folder in folders:
         for path in (path for tree in CONTRACTS for path in sorted(folder.glob(tree))):
             text = csource.read(path)
-            if "proofs" in path.parts and THEOREM not in text[:500]:
+            if path.is_relative_to(folder / "proofs") and THEOREM not in text[:500]:
                 continue
             names = {name for name, said in wp_frames.contracts(text) if CLAUSE_OF.search(said)}
             for name in sorted(names & public):
                 if first.setdefault(name, path) != path:
-                    told = first[name].relative_to(folder) if folder in first[name].parents else ""
-                    problems.append(
-                        f"{path.relative_to(folder)}: a second contract of {name}, which"
-                        f" {told or first[name].name} states"
-                    )
+                    place = path.relative_to(folder)
+                    problems.append(f"{place}: a second contract of {name}, see {first[name]}")
     return problems
 
 
@@ -171,12 +168,12 @@ def _included(name: str, headers: Mapping[str, str]) -> set[str]:
     seen: set[str] = set()
     waiting = [name]
     while waiting:
-        name = waiting.pop()
-        text = headers[name]
+        header = waiting.pop()
+        here = posixpath.dirname(header)
         named = {
             path
-            for one in INCLUDE.findall(text)
-            for path in (one, posixpath.normpath(posixpath.join(posixpath.dirname(name), one)))
+            for one in INCLUDE.findall(headers[header])
+            for path in (one, posixpath.normpath(posixpath.join(here, one)))
             if path in headers
         }
         waiting += named - seen
