@@ -87,6 +87,12 @@ class Projects(unittest.TestCase):
             with self.subTest(number):
                 self.assertEqual([*shapes.in_what_is_proved(text.format(number), fields)], [])
 
+    def test_a_variable_may_hold_its_own_address(self) -> None:
+        node = "    struct node n = { .next = &n };\n"
+        text = BUILT.replace("    return", f"{node}    return")
+        self.write("include/keel/rtos/box.h", text)
+        self.assertEqual(self.problems(), [])
+
     def test_the_number_of_elements_has_one_value_everywhere(self) -> None:
         text = "static int all[4];\nstatic int f(void)\n{{\n    return {};\n}}\n"
         good = text.format("sizeof(all) / sizeof all[0]")

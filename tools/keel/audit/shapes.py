@@ -87,8 +87,9 @@ def in_what_is_proved(text: str, pointers: Set[str] = frozenset()) -> Iterator[t
         if any(_is_function(one) for one in node.children_by_field_name("declarator")):
             yield _line(node), "a type of functions, by which no audit finds what is declared"
     for node in found(tree, "init_declarator"):
-        value, name = node.child_by_field_name("value"), declared(node)
-        if value and name in {written(one) for one in (value, *found(value, "identifier"))}:
+        name, value = declared(node), node.child_by_field_name("value")
+        read = (one for one in found(node, "identifier") if not written(one.parent).startswith("&"))
+        if value and name in {written(one) for one in read if one.start_byte >= value.start_byte}:
             yield _line(node), f"`{written(node)}`: {name} is read before it has a value"
 
 
