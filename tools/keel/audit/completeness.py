@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import posixpath
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -31,7 +30,6 @@ LIBRARY = re.compile(
     r"|strto[dfl]|is(?:alnum|alpha|ascii|blank|cntrl|digit|graph|lower|print|punct|space|upper)"
     r"|isxdigit|to(?:ascii|lower|upper)|v?[fs]?n?(?:printf|scanf)|f?put[cs]|putchar|fwrite"
 )
-INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.MULTILINE)
 
 
 def assumptions_in(files: Iterable[Path], root: Path) -> list[str]:
@@ -149,36 +147,14 @@ def contracts_elsewhere(root: Path) -> list[str]:
 
 def include_circles(root: Path) -> list[str]:
     """Headers that include each other: each one's lemmas could be proved from the other's."""
-    folders = [folder / "include" for folder in dict.fromkeys((root.resolve(), KEEL))]
-    headers = {
-        path.relative_to(folder).as_posix(): csource.read(path)
-        for folder in reversed(folders)
-        for path in sorted(folder.rglob("*.h"))
-    }
-    seen_from = {name: _included(name, headers) for name in headers}
+    included: dict[Path, list[Path]] = {}
+    headers = sorted((root.resolve() / "include").rglob("*.h"))
+    closure(root, headers, included)
     return [
-        f"include/{name}: it includes itself, by way of other headers"
-        for name, seen in seen_from.items()
-        if name in seen
+        f"{path.relative_to(root.resolve())}: it includes itself, by way of other headers"
+        for path in headers
+        if path in closure(root, included[path], included)
     ]
-
-
-def _included(name: str, headers: Mapping[str, str]) -> set[str]:
-    """All headers that one includes, by way of others, too."""
-    seen: set[str] = set()
-    waiting = [name]
-    while waiting:
-        header = waiting.pop()
-        here = posixpath.dirname(header)
-        named = {
-            path
-            for one in INCLUDE.findall(headers[header])
-            for path in (one, posixpath.normpath(posixpath.join(here, one)))
-            if path in headers
-        }
-        waiting += named - seen
-        seen |= named
-    return seen
 
 
 def switched_off_checks(files: Iterable[Path], root: Path) -> list[str]:

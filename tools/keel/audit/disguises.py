@@ -90,7 +90,7 @@ def everywhere(text: str) -> Iterator[Finding]:
         directive = DIRECTIVE.match(line) if starts.get(number) == number else None
         if directive and directive[1] not in PLAIN:
             yield number, f"#{directive[1]}"
-    for number, line in enumerate(csource.TOKEN.sub(_mark_literal, text).split("\n"), 1):
+    for number, line in enumerate(csource.TOKEN.sub(csource.blanked, text).split("\n"), 1):
         if "'" in line or '"' in line:
             yield number, "a quote without its end: a preprocessor may read on elsewhere"
     for number, line in enumerate(bare.split("\n"), 1):
@@ -113,11 +113,6 @@ def everywhere(text: str) -> Iterator[Finding]:
                 yield last, "code behind a comment that began in a directive"
     yield from shapes.in_annotations(text)
     yield from macros.everywhere(text)
-
-
-def _mark_literal(token: re.Match[str]) -> str:
-    """Nothing, but for line ends, in place of a comment or a literal."""
-    return "\n" * token.group().count("\n")
 
 
 def directives(lines: Sequence[str]) -> dict[int, int]:

@@ -76,9 +76,9 @@ class _Reader:
 
     def __init__(self, file: Node, harmless: Set[str]) -> None:
         self.file = file
-        # What a variable leads to is called by its name, too.
-        variables_too = found(file, "declaration", "parameter_declaration")
-        self._harmless = harmless - {name for one in variables_too for name in _pointed(one)}
+        # A call by a pointer's name is one of whatever function it leads to.
+        names = found(file, "declaration", "parameter_declaration")
+        self._harmless = harmless - {name for one in names for name in _pointed(one)}
         declared = [one for one in file.children if one.type == "declaration"]
         variables = [
             name
